@@ -1,0 +1,256 @@
+//! A character in rapier sets that anybody owns and steps: spawn, sense, actuate.
+//!
+//! [`Model`] + [`State`] → rigid bodies, colliders and hinges; after each step of their owner
+//! → [`Sensors`]; before each step torques → hinges. With `world.rs` the only file that names the
+//! engine. The engine's numbers are single precision; sensed states are rounded to it, so that a
+//! recorded state is the sensed state, bit for bit.
+
+use std::sync::Arc;
+
+use rapier2d::geometry::ContactPair;
+use rapier2d::prelude::*;
+
+use crate::kinematics::Kinematics;
+use crate::model::{Model, Shape};
+use crate::sensors::{FootContact, LinkContact, Sensors};
+use crate::state::{State, wrapped};
+
+/// A gap below which a link touches, m.
+const TOUCHING: f32 = 3e-3;
+/// Friction of a character's skin. The smaller coefficient of a contact counts, so that in
+/// practice the ground's or prop's does.
+const SKIN_FRICTION: f32 = 2.0;
+
+/// A character's bodies, colliders and hinges in rapier sets.
+#[derive(Debug, Clone)]
+pub struct Body {
+    model: Arc<Model>,
+    links: Vec<RigidBodyHandle>,
+    colliders: Vec<ColliderHandle>,
+    joints: Vec<ImpulseJointHandle>,
+}
+
+/// A world vector in the engine's type.
+pub(crate) fn vector(p: [f64; 2]) -> Vector {
+    Vector::new(p[0] as f32, p[1] as f32)
+}
+
+/// Rounded to the engine's precision.
+fn rounded(x: f64) -> f64 {
+    f64::from(x as f32)
+}
+
+impl Body {
+    /// Adds the character to the sets in the given state. Links of one character pass through
+    /// each other; `layer` (0 to 15) tells characters in one world apart.
+    ///
+    /// The hinges are impulse joints with limits; the links never sleep.
+    pub fn spawn(
+        model: &Arc<Model>,
+        state: &State,
+        layer: u8,
+        bodies: &mut RigidBodySet,
+        colliders: &mut ColliderSet,
+        joints: &mut ImpulseJointSet,
+    ) -> Self {
+        let mut kinematics = Kinematics::new(model);
+        kinematics.update(model, state);
+        let own = Group::from_bits_truncate(1 << (layer % 16));
+        let groups = InteractionGroups::new(own, own.complement(), InteractionTestMode::And);
+        let mut body = Self {
+            model: Arc::clone(model),
+            links: Vec::with_capacity(model.links.len()),
+            colliders: Vec::with_capacity(model.links.len()),
+            joints: Vec::with_capacity(model.joint_count()),
+        };
+        for (link, motion) in model.links.iter().zip(&kinematics.links) {
+            let rigid = RigidBodyBuilder::dynamic()
+                .pose(Pose::new(vector(motion.origin), motion.angle as f32))
+                .linvel(vector(motion.com_velocity))
+                .angvel(motion.rate as f32)
+                .can_sleep(false)
+                .additional_mass_properties(MassProperties::new(
+                    vector(link.com),
+                    link.mass as f32,
+                    link.inertia as f32,
+                ));
+            let handle = bodies.insert(rigid);
+            let collider = outline(&link.shape)
+                .density(0.0)
+                .friction(SKIN_FRICTION)
+                .friction_combine_rule(CoefficientCombineRule::Min)
+                .collision_groups(groups);
+            body.colliders
+                .push(colliders.insert_with_parent(collider, handle, bodies));
+            if let Some(joint) = &link.joint {
+                let hinge = RevoluteJointBuilder::new()
+                    .local_anchor1(vector(joint.anchor))
+                    .local_anchor2(Vector::ZERO)
+                    .limits([joint.range[0] as f32, joint.range[1] as f32])
+                    .contacts_enabled(false);
+                body.joints
+                    .push(joints.insert(body.links[joint.parent], handle, hinge, true));
+            }
+            body.links.push(handle);
+        }
+        body
+    }
+
+    /// The character.
+    #[must_use]
+    pub fn model(&self) -> &Arc<Model> {
+        &self.model
+    }
+
+    /// The rigid body of a link.
+    #[must_use]
+    pub fn link(&self, link: usize) -> RigidBodyHandle {
+        self.links[link]
+    }
+
+    /// Reads the state and the contacts after a step of `dt` s (or before the first one).
+    /// `time` and `gravity` (downwards positive) are the owner's. Allocates nothing.
+    pub fn sense(
+        &self,
+        bodies: &RigidBodySet,
+        colliders: &ColliderSet,
+        narrow_phase: &NarrowPhase,
+        dt: f64,
+        sensors: &mut Sensors,
+    ) {
+        self.sense_state(bodies, &mut sensors.state);
+        sensors.kinematics.update(&self.model, &sensors.state);
+        let mut lowest = f64::INFINITY;
+        sensors.feet.fill(FootContact::default());
+        for (i, collider) in self.colliders.iter().enumerate() {
+            let mut contact = LinkContact::default();
+            let foot = self.model.feet.iter().position(|f| f.link == i);
+            let middle = foot.map_or(0.0, |f| {
+                let f = &self.model.feet[f];
+                0.5 * (f.heel[0] + f.toe[0])
+            });
+            let mut moment = 0.0;
+            for pair in narrow_phase.contact_pairs_with(*collider) {
+                each_point(pair, *collider, colliders, dt, |at, local, force, dist| {
+                    if dist > TOUCHING && force == [0.0; 2] {
+                        return;
+                    }
+                    contact.touching = true;
+                    contact.force[0] += force[0];
+                    contact.force[1] += force[1];
+                    moment += force[1] * at[0] - force[0] * (at[1] - 0.0);
+                    lowest = lowest.min(at[1]);
+                    if let Some(foot) = foot.map(|f| &mut sensors.feet[f]) {
+                        let [rear, front] = foot.support.unwrap_or([at[0], at[0]]);
+                        foot.support = Some([rear.min(at[0]), front.max(at[0])]);
+                        foot.heel |= local[0] < middle;
+                        foot.toe |= local[0] >= middle;
+                        // The moment about the surface under the foot, for the centre of pressure.
+                        foot.cop = Some(foot.cop.unwrap_or(0.0) + force[1] * at[0]);
+                    }
+                });
+            }
+            sensors.contacts[i] = contact;
+            if let Some(foot) = foot.map(|f| &mut sensors.feet[f]) {
+                foot.force = contact.force;
+                foot.cop = foot
+                    .cop
+                    .filter(|_| contact.force[1] > 1.0)
+                    .map(|m| m / contact.force[1]);
+            }
+        }
+        if lowest.is_finite() {
+            sensors.ground = lowest;
+        }
+        sensors.derive();
+    }
+
+    fn sense_state(&self, bodies: &RigidBodySet, state: &mut State) {
+        let root = &bodies[self.links[0]];
+        let angle = f64::from(root.rotation().angle());
+        let origin = root.translation();
+        let com = root.center_of_mass();
+        let (v, w) = (root.linvel(), f64::from(root.angvel()));
+        let arm = [f64::from(com.x - origin.x), f64::from(com.y - origin.y)];
+        state.q[0] = f64::from(origin.x);
+        state.q[1] = f64::from(origin.y);
+        state.q[2] = angle;
+        state.qdot[0] = rounded(f64::from(v.x) + w * arm[1]);
+        state.qdot[1] = rounded(f64::from(v.y) - w * arm[0]);
+        state.qdot[2] = w;
+        for (i, link) in self.model.links.iter().enumerate() {
+            let Some(joint) = &link.joint else { continue };
+            let (child, parent) = (&bodies[self.links[i]], &bodies[self.links[joint.parent]]);
+            let turn = f64::from(child.rotation().angle()) - f64::from(parent.rotation().angle());
+            // The range may reach beyond ±π: take the turn nearest to its middle.
+            let middle = 0.5 * (joint.range[0] + joint.range[1]);
+            state.q[i + 2] = rounded(middle + wrapped(turn - middle));
+            state.qdot[i + 2] = rounded(f64::from(child.angvel()) - f64::from(parent.angvel()));
+        }
+    }
+
+    /// Applies joint torques (N·m, model order) for the next step, in place of the last step's,
+    /// clamped to the muscles. What is not a number counts as 0. Returns nothing to the root: every
+    /// torque acts on a link and, reversed, on its parent.
+    pub fn actuate(&self, bodies: &mut RigidBodySet, torques: &[f64]) {
+        for handle in &self.links {
+            bodies[*handle].reset_torques(false);
+        }
+        for ((i, link), torque) in self.model.links.iter().enumerate().skip(1).zip(torques) {
+            let Some(joint) = &link.joint else { continue };
+            let torque = if torque.is_nan() { 0.0 } else { *torque };
+            let torque = torque.clamp(-joint.torque, joint.torque) as f32;
+            bodies[self.links[i]].add_torque(torque, false);
+            bodies[self.links[joint.parent]].add_torque(-torque, false);
+        }
+    }
+}
+
+/// The collider of a link's outline.
+pub(crate) fn outline(shape: &Shape) -> ColliderBuilder {
+    match *shape {
+        Shape::Capsule { radius, from, to } => {
+            ColliderBuilder::capsule_from_endpoints(vector(from), vector(to), radius as f32)
+        }
+        Shape::Box { half, centre } => {
+            ColliderBuilder::cuboid(half[0] as f32, half[1] as f32).translation(vector(centre))
+        }
+    }
+}
+
+/// Calls `visit(world point, point in the collider's body frame, force on it, gap)` for every
+/// contact point of a pair.
+fn each_point(
+    pair: &ContactPair,
+    of: ColliderHandle,
+    colliders: &ColliderSet,
+    dt: f64,
+    mut visit: impl FnMut([f64; 2], [f64; 2], [f64; 2], f32),
+) {
+    let first = pair.collider1 == of;
+    let sign = if first { -1.0 } else { 1.0 } / dt;
+    let collider = &colliders[of];
+    for manifold in pair.solver_manifolds() {
+        let n = manifold.data.normal;
+        let t = Vector::new(-n.y, n.x);
+        for point in &manifold.points {
+            let local = if first {
+                point.local_p1
+            } else {
+                point.local_p2
+            };
+            let at = collider.position().transform_point(local);
+            let force = n * point.data.impulse + t * point.data.tangent_impulse[0];
+            let force = [f64::from(force.x) * sign, f64::from(force.y) * sign];
+            let in_body = collider
+                .position_wrt_parent()
+                .map_or(local, |p| p.transform_point(local));
+            visit(
+                [f64::from(at.x), f64::from(at.y)],
+                [f64::from(in_body.x), f64::from(in_body.y)],
+                force,
+                point.dist,
+            );
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! What a controller promises: pre-condition, post-condition, expected performance and weight.
+//! (Faloutsos, van de Panne, Terzopoulos 2001, sections 3.1 to 3.4.)
+
+use serde::{Deserialize, Serialize};
+
+use crate::command::{Answer, Command};
+use crate::condition::Condition;
+use crate::error::Result;
+use crate::model::Model;
+
+/// A controller's contract, as data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Contract {
+    /// Unique in its repertoire.
+    pub name: String,
+    /// Suitability = weight × pre-condition. 0: only on command.
+    pub weight: u32,
+    /// Where the controller can take over.
+    pub precondition: Condition,
+    /// Where it has succeeded; `Never` stays on until it fails or something else is commanded.
+    #[serde(default = "never")]
+    pub postcondition: Condition,
+    /// What holds as long as all goes well. Not held while active: failing, arbitrate now.
+    #[serde(default = "always")]
+    pub expected: Condition,
+    /// s for which the post-condition must hold without a break.
+    #[serde(default)]
+    pub hold: f64,
+    /// s after which a controller that has not succeeded has failed.
+    #[serde(default = "forever")]
+    pub patience: f64,
+    /// The commands that it answers to; its own name if none are listed.
+    #[serde(default)]
+    pub commands: Vec<Answer>,
+}
+
+fn never() -> Condition {
+    Condition::Never
+}
+
+fn always() -> Condition {
+    Condition::Always
+}
+
+fn forever() -> f64 {
+    f64::INFINITY
+}
+
+impl Contract {
+    /// Looks up the joints of its conditions, checks its numbers, and makes it answer to its name
+    /// if it lists no commands.
+    ///
+    /// # Errors
+    /// Unknown joints; bounds, times or parameters that are no numbers or out of order.
+    pub fn resolve(&mut self, model: &Model) -> Result<()> {
+        self.precondition.resolve(model)?;
+        self.postcondition.resolve(model)?;
+        self.expected.resolve(model)?;
+        let invalid = |field: String, problem: String, accepted: &str| {
+            Err(crate::error::Error::Invalid {
+                place: self.name.clone(),
+                field,
+                problem,
+                accepted: accepted.to_owned(),
+            })
+        };
+        if self.name.is_empty()
+            || self
+                .name
+                .parse::<Command>()
+                .map_or(true, |c| c.name != self.name)
+        {
+            let accepted = "a letter, then letters, digits and '_'";
+            return invalid("name".into(), format!("'{}'", self.name), accepted);
+        }
+        if self.hold.is_nan() || self.hold < 0.0 || self.hold > 60.0 {
+            return invalid("hold".into(), self.hold.to_string(), "0 to 60 s");
+        }
+        if self.patience.is_nan() || self.patience <= 0.0 {
+            return invalid("patience".into(), self.patience.to_string(), "above 0 s");
+        }
+        for answer in &self.commands {
+            for p in &answer.parameters {
+                let ordered = p.min <= p.default && p.default <= p.max;
+                if !(ordered && p.min.is_finite() && p.max.is_finite()) {
+                    let field = format!("commands.{}.{}", answer.name, p.name);
+                    let problem = format!("{} ≤ {} ≤ {}", p.min, p.default, p.max);
+                    return invalid(field, problem, "finite min ≤ default ≤ max");
+                }
+            }
+        }
+        if self.commands.is_empty() {
+            let parameters = Vec::new();
+            self.commands.push(Answer {
+                name: self.name.clone(),
+                parameters,
+            });
+        }
+        Ok(())
+    }
+
+    /// The entry of [`Self::commands`] with the command's name.
+    #[must_use]
+    pub fn answer(&self, command: &Command) -> Option<&Answer> {
+        self.commands.iter().find(|a| a.name == command.name)
+    }
+
+    /// The value of a parameter: as commanded, else its default, else `otherwise`.
+    #[must_use]
+    pub fn parameter(&self, command: Option<&Command>, name: &str, otherwise: f64) -> f64 {
+        command.and_then(|c| c.argument(name)).unwrap_or_else(|| {
+            let all = self.commands.iter().flat_map(|a| &a.parameters);
+            all.clone()
+                .find(|p| p.name == name)
+                .map_or(otherwise, |p| p.default)
+        })
+    }
+}

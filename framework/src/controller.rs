@@ -1,0 +1,95 @@
+//! The trait that every motor skill implements, and the supervisor too, so that composites are
+//! controllers.
+
+use std::fmt::Debug;
+
+use crate::command::Command;
+use crate::contract::Contract;
+use crate::error::Result;
+use crate::sensors::Sensors;
+use crate::supervisor::Decision;
+
+/// How an active controller is getting on.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Progress {
+    /// As expected.
+    Running,
+    /// Its post-condition holds.
+    Succeeded,
+    /// It cannot meet its post-condition any more; the reason, for people.
+    Failed(String),
+}
+
+/// A motor skill. What it does depends on itself and on `now` only: no clock, no global state, no
+/// random numbers. Two clones that see the same do the same, bit for bit.
+///
+/// Only [`contract`](Self::contract), [`enter`](Self::enter), [`act`](Self::act) and
+/// [`clone_box`](Self::clone_box) have to be written.
+pub trait Controller: Debug + Send + Sync {
+    /// What it promises.
+    fn contract(&self) -> &Contract;
+
+    /// Takes over: forgets any earlier activation.
+    fn enter(&mut self, now: &Sensors);
+
+    /// One step's joint torques, N·m, in the order of [`crate::model::Model::joints`]; positive
+    /// counter-clockwise on the child. Cannot fail; torques beyond the muscles are clamped by the
+    /// body.
+    fn act(&mut self, now: &Sensors, torques: &mut [f64]);
+
+    /// A clone, as a box.
+    fn clone_box(&self) -> Box<dyn Controller>;
+
+    /// The bid for control: weight × pre-condition.
+    fn suitability(&self, now: &Sensors) -> u32 {
+        let contract = self.contract();
+        if contract.weight > 0 && contract.precondition.holds(now) {
+            contract.weight
+        } else {
+            0
+        }
+    }
+
+    /// How it is getting on, `elapsed` s after [`enter`](Self::enter). `kept` is for how many
+    /// seconds the post-condition has held without a break; none if it does not hold.
+    fn progress(&self, now: &Sensors, elapsed: f64, kept: Option<f64>) -> Progress {
+        let contract = self.contract();
+        if kept.is_some_and(|k| k >= contract.hold) {
+            Progress::Succeeded
+        } else if let Some(refusal) = contract.expected.first_failure(now) {
+            Progress::Failed(format!("expected {refusal}"))
+        } else if elapsed > contract.patience {
+            Progress::Failed(format!("not done after {} s", contract.patience))
+        } else {
+            Progress::Running
+        }
+    }
+
+    /// Takes a command that it answers to, before it is entered for it. Returns whether it answers
+    /// to it.
+    ///
+    /// # Errors
+    /// The command's name is known but a parameter is not, or is out of its range.
+    fn obey(&mut self, command: &Command) -> Result<bool> {
+        match self.contract().answer(command) {
+            Some(answer) => answer.check(command).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// The centre of mass that it aims at, world x, m, if it aims at one; for recordings.
+    fn reference_com(&self) -> Option<f64> {
+        None
+    }
+
+    /// What it has decided since it was last asked; only composites decide.
+    fn take_decisions(&mut self) -> Vec<Decision> {
+        Vec::new()
+    }
+}
+
+impl Clone for Box<dyn Controller> {
+    fn clone(&self) -> Self {
+        self.clone_box()
+    }
+}

@@ -1,0 +1,46 @@
+//! The framework of Aplomb: characters, their dynamics and bodies, sensors, the controller
+//! contract and the supervisor.
+//!
+//! # Units, frames, signs
+//!
+//! SI and radians everywhere. World frame: x forward, y up. Angles are counter-clockwise positive;
+//! a joint's angle is child minus parent; all 0 is upright with arms hanging and feet flat,
+//! pointing to +x. Hence: pitch + leans back; waist and neck − bend forward; shoulder + arm
+//! forward; elbow + flexes; hip + flexes; knee − flexes; ankle + lifts the toes. A link's frame
+//! lies at its joint, with axes as the world's when all angles are 0.
+//!
+//! # Data flow
+//!
+//! - character file → [`model`] → [`body`] in a [`world`]
+//! - body → [`state`] → [`kinematics`] → [`sensors`] → [`feature`] → [`condition`]
+//! - conditions → [`contract`] → [`controller`] → [`supervisor`] → torques → body
+//! - state → [`dynamics`] → controllers that need M, h, A and Jacobians
+//! - files → [`registry`] → [`repertoire`] → supervisor; text → [`command`] → supervisor
+//! - [`scenario`] → [`simulation`] → [`trajectory`]
+
+pub mod body;
+pub mod command;
+pub mod condition;
+pub mod contract;
+pub mod controller;
+pub mod dynamics;
+pub mod error;
+pub mod feature;
+pub mod file;
+pub mod kinematics;
+pub mod model;
+mod model_file;
+// pub mod registry;
+// pub mod repertoire;
+// pub mod scenario;
+pub mod sensors;
+// pub mod simulation;
+pub mod state;
+pub mod supervisor;
+pub mod trajectory;
+pub mod world;
+
+pub use error::{Error, Result};
+
+/// The engine, for those who own the sets that a [`body::Body`] lives in.
+pub use rapier2d;

@@ -1,0 +1,305 @@
+//! A character as data: links, joints, limits, feet. Reads and validates a character file.
+//!
+//! character file (RON) → [`Model`] → dynamics, body, sensors.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::file::Source;
+use crate::kinematics::Kinematics;
+use crate::state::State;
+
+/// At most this many links a character.
+pub const MOST_LINKS: usize = 128;
+
+/// A point or vector in the plane: (x forward, y up), m.
+pub type Point = [f64; 2];
+
+/// The outline of a link, in the link's frame.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Shape {
+    /// All points within `radius` of the segment.
+    Capsule {
+        /// m
+        radius: f64,
+        /// One end of the axis.
+        from: Point,
+        /// The other end.
+        to: Point,
+    },
+    /// An upright rectangle.
+    Box {
+        /// Half width and half height, m.
+        half: Point,
+        /// Its middle.
+        centre: Point,
+    },
+}
+
+/// A hinge between a link and its parent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// Unique name, as in poses and features.
+    pub name: String,
+    /// The parent's place in [`Model::links`].
+    pub parent: usize,
+    /// The hinge in the parent's frame; it is the origin of the child's.
+    pub anchor: Point,
+    /// Lowest and highest angle, rad.
+    pub range: [f64; 2],
+    /// The largest torque that the muscles exert either way, N·m.
+    pub torque: f64,
+    /// Nominal servo stiffness, N·m/rad.
+    pub kp: f64,
+    /// Nominal servo damping, N·m·s/rad.
+    pub kd: f64,
+}
+
+/// A rigid body of the character.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// Unique name.
+    pub name: String,
+    /// Its hinge; none for the root, which is the first link.
+    pub joint: Option<Joint>,
+    /// kg
+    pub mass: f64,
+    /// Centre of mass in the link's frame.
+    pub com: Point,
+    /// About the centre of mass, kg·m².
+    pub inertia: f64,
+    /// Outline for contact and drawing.
+    pub shape: Shape,
+}
+
+/// A foot: a link that is stood on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Foot {
+    /// Its place in [`Model::links`].
+    pub link: usize,
+    /// Rear end of the sole, in the link's frame.
+    pub heel: Point,
+    /// Front end of the sole.
+    pub toe: Point,
+}
+
+/// A hand: the point of a link that reaches for things and breaks falls.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hand {
+    /// Its place in [`Model::links`].
+    pub link: usize,
+    /// In the link's frame.
+    pub tip: Point,
+}
+
+/// A validated character. Degrees of freedom: root x, y, pitch, then the joints in the order of
+/// their links.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    /// Name of the character.
+    pub name: String,
+    /// The root first, every parent before its children.
+    pub links: Vec<Link>,
+    /// At least one.
+    pub feet: Vec<Foot>,
+    /// May be empty.
+    pub hands: Vec<Hand>,
+    /// The link whose angle is the trunk's pitch.
+    pub trunk: usize,
+    /// The link to be kept off the ground.
+    pub head: usize,
+    /// The character file's text, so that a recording can carry its character.
+    pub source: String,
+    total_mass: f64,
+    standing_height: f64,
+    standing_com: Point,
+}
+
+impl Model {
+    /// The built-in characters by name.
+    pub const BUILT_IN: [(&'static str, &'static str); 1] =
+        [("humanoid", include_str!("../characters/humanoid.ron"))];
+
+    /// A built-in character by name, or a character file by path.
+    ///
+    /// # Errors
+    /// An unreadable or invalid file, named with line and field.
+    ///
+    /// ```
+    /// # use aplomb_framework::model::Model;
+    /// let humanoid = Model::load("humanoid")?;
+    /// assert_eq!(humanoid.dof(), 15);
+    /// assert!((humanoid.total_mass() - 80.0).abs() < 1e-9);
+    /// # Ok::<(), aplomb_framework::Error>(())
+    /// ```
+    pub fn load(name_or_path: &str) -> Result<Arc<Self>> {
+        let source = match Self::BUILT_IN.iter().find(|(n, _)| *n == name_or_path) {
+            Some((name, text)) => Source::new(format!("built-in {name}"), *text),
+            None => match Source::read(Path::new(name_or_path)) {
+                Err(Error::Read { reason, .. }) if !Path::new(name_or_path).exists() => {
+                    let known = Self::BUILT_IN.iter().map(|(n, _)| *n);
+                    return Err(Error::Read {
+                        path: name_or_path.into(),
+                        reason: format!(
+                            "{reason}; characters known by name: {}",
+                            known.collect::<Vec<_>>().join(", ")
+                        ),
+                    });
+                }
+                other => other?,
+            },
+        };
+        Self::parse(&source).map(Arc::new)
+    }
+
+    /// Reads a character from text.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`] or [`Error::Invalid`] with the line, the field and what is accepted.
+    pub fn parse(source: &Source) -> Result<Self> {
+        crate::model_file::read(source)
+    }
+
+    /// Builds the model from its validated parts and derives what depends on them.
+    pub(crate) fn assemble(
+        source: String,
+        name: String,
+        links: Vec<Link>,
+        feet: Vec<Foot>,
+        hands: Vec<Hand>,
+        trunk: usize,
+        head: usize,
+    ) -> Self {
+        let total_mass = links.iter().map(|l| l.mass).sum();
+        let mut model = Self {
+            source,
+            name,
+            links,
+            feet,
+            hands,
+            trunk,
+            head,
+            total_mass,
+            standing_height: 0.0,
+            standing_com: [0.0, 0.0],
+        };
+        let mut kinematics = Kinematics::new(&model);
+        let state = State {
+            q: vec![0.0; model.dof()],
+            qdot: vec![0.0; model.dof()],
+        };
+        kinematics.update(&model, &state);
+        let lowest = model
+            .feet
+            .iter()
+            .flat_map(|f| [(f.link, f.heel), (f.link, f.toe)])
+            .map(|(link, p)| kinematics.point(link, p)[1])
+            .fold(f64::INFINITY, f64::min);
+        model.standing_height = -lowest;
+        let com = kinematics.com;
+        model.standing_com = [com[0], com[1] - lowest];
+        model
+    }
+
+    /// Number of degrees of freedom: three of the root and one a joint.
+    #[must_use]
+    pub fn dof(&self) -> usize {
+        self.links.len() + 2
+    }
+
+    /// Number of joints, which is the length of every torque and pose vector.
+    #[must_use]
+    pub fn joint_count(&self) -> usize {
+        self.links.len() - 1
+    }
+
+    /// The joints in the order of torques and poses: joint `j` turns link `j + 1` and is degree of
+    /// freedom `j + 3`.
+    pub fn joints(&self) -> impl ExactSizeIterator<Item = &Joint> {
+        self.links[1..].iter().map(|l| {
+            l.joint
+                .as_ref()
+                .unwrap_or_else(|| unreachable!("only the root has no joint"))
+        })
+    }
+
+    /// Mass of all links, kg.
+    #[must_use]
+    pub fn total_mass(&self) -> f64 {
+        self.total_mass
+    }
+
+    /// Height of the root's origin above the sole when all joints are 0, m.
+    #[must_use]
+    pub fn standing_height(&self) -> f64 {
+        self.standing_height
+    }
+
+    /// Centre of mass when standing with all joints 0: ahead of the root's origin, and above the
+    /// sole, m.
+    #[must_use]
+    pub fn standing_com(&self) -> Point {
+        self.standing_com
+    }
+
+    /// Place of the joint with this name among the joints.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] with the joint names.
+    pub fn joint_index(&self, name: &str) -> Result<usize> {
+        self.joints()
+            .position(|j| j.name == name)
+            .ok_or_else(|| Error::unknown("joint", name, self.joints().map(|j| j.name.as_str())))
+    }
+
+    /// Place of the link with this name.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] with the link names.
+    pub fn link_index(&self, name: &str) -> Result<usize> {
+        self.links
+            .iter()
+            .position(|l| l.name == name)
+            .ok_or_else(|| Error::unknown("link", name, self.links.iter().map(|l| l.name.as_str())))
+    }
+
+    /// The joint of the other side (`hip_r` ↔ `hip_l`), or the joint itself if it has none.
+    #[must_use]
+    pub fn mirrored_joint(&self, joint: usize) -> usize {
+        let name = &self.links[joint + 1]
+            .joint
+            .as_ref()
+            .map_or("", |j| j.name.as_str());
+        let other = if let Some(stem) = name.strip_suffix("_r") {
+            format!("{stem}_l")
+        } else if let Some(stem) = name.strip_suffix("_l") {
+            format!("{stem}_r")
+        } else {
+            return joint;
+        };
+        self.joint_index(&other).unwrap_or(joint)
+    }
+
+    /// Whether the link is a foot.
+    #[must_use]
+    pub fn is_foot(&self, link: usize) -> bool {
+        self.feet.iter().any(|f| f.link == link)
+    }
+
+    /// Whether a foot hangs on the link.
+    #[must_use]
+    pub fn is_shank(&self, link: usize) -> bool {
+        let parent = |f: &Foot| self.links[f.link].joint.as_ref().map(|j| j.parent);
+        self.feet.iter().any(|f| parent(f) == Some(link))
+    }
+
+    /// Whether the link ends in a hand.
+    #[must_use]
+    pub fn is_hand(&self, link: usize) -> bool {
+        self.hands.iter().any(|h| h.link == link)
+    }
+}

@@ -1,0 +1,412 @@
+//! Polls a pool of controllers, arbitrates by suitability, delegates, and explains itself.
+//! (Faloutsos, van de Panne, Terzopoulos 2001, section 3 and figure 2.)
+//!
+//! sensors → poll pre-conditions → the active controller → torques. A supervisor is itself a
+//! controller, so pools nest.
+//!
+//! Rules:
+//! - The active controller stays until it succeeds, fails, or a command calls another.
+//! - A controller that failed bids 0 for [`RECOVERY`] s, and one that succeeded has been active for
+//!   at least [`DWELL`] s: two controllers cannot alternate every few steps.
+//! - The incumbent of a lost or won arbitration is not entered again.
+//! - A command raises its controller above the weights, never over a failed pre-condition.
+//! - Polling has no side effect. Ties go to the earlier in the repertoire.
+//! - One controller, the fallback, accepts every state, so that something is always active.
+
+use serde::{Deserialize, Serialize};
+
+use crate::command::Command;
+use crate::condition::Condition;
+use crate::contract::Contract;
+use crate::controller::{Controller, Progress};
+use crate::error::{Error, Result};
+use crate::sensors::Sensors;
+
+/// s for which a controller that has just failed is not chosen again.
+pub const RECOVERY: f64 = 0.25;
+/// s for which a controller is active before its success is acted on.
+pub const DWELL: f64 = 0.05;
+
+/// Why control changed hands.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Why {
+    /// Nothing was active yet.
+    Start,
+    /// The former controller reached its post-condition.
+    Succeeded,
+    /// The former controller failed; the clause or reason.
+    Failed(String),
+    /// A command called.
+    Command,
+}
+
+/// What one controller said in an arbitration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Bid {
+    /// Its name.
+    pub controller: String,
+    /// Its suitability; 0 if it refused.
+    pub suitability: u32,
+    /// Why it bid 0.
+    pub refusal: Option<String>,
+}
+
+/// What a supervisor decided, with the time in s.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Decision {
+    /// Control changed hands.
+    Switch {
+        /// s
+        time: f64,
+        /// The former controller; none at the start.
+        from: Option<String>,
+        /// The new one.
+        to: String,
+        /// Why.
+        why: Why,
+        /// What each controller of the pool said.
+        bids: Vec<Bid>,
+    },
+    /// A commanded controller's pre-condition does not hold.
+    Refused {
+        /// s
+        time: f64,
+        /// The command.
+        command: String,
+        /// The controller that answers to it.
+        controller: String,
+        /// The clause that refused.
+        clause: String,
+        /// The value that it refused.
+        value: Option<f64>,
+    },
+    /// The command called its controller.
+    Obeyed {
+        /// s
+        time: f64,
+        /// The command.
+        command: String,
+    },
+}
+
+#[derive(Debug, Clone)]
+struct Member {
+    controller: Box<dyn Controller>,
+    /// Until this time it bids 0, because it has failed.
+    recovers_at: f64,
+}
+
+/// The active controller and its activation.
+#[derive(Debug, Clone, Copy)]
+struct Active {
+    member: usize,
+    since: f64,
+    /// Since when its post-condition has held.
+    reached: Option<f64>,
+}
+
+/// A pool of controllers under one contract.
+#[derive(Debug, Clone)]
+pub struct Supervisor {
+    contract: Contract,
+    pool: Vec<Member>,
+    fallback: usize,
+    active: Option<Active>,
+    /// Commands of this step, in order, each with the member that answers to it.
+    pending: Vec<(usize, Command)>,
+    decisions: Vec<Decision>,
+}
+
+impl Supervisor {
+    /// A pool in the order in which ties are broken. `fallback` names the controller that accepts
+    /// every state.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if the pool is empty, a name occurs twice, or the fallback is missing,
+    /// has weight 0, or does not accept every state.
+    pub fn new(name: &str, pool: Vec<Box<dyn Controller>>, fallback: &str) -> Result<Self> {
+        let invalid = |field: &str, problem: String, accepted: &str| Error::Invalid {
+            place: name.to_owned(),
+            field: field.to_owned(),
+            problem,
+            accepted: accepted.to_owned(),
+        };
+        for (i, c) in pool.iter().enumerate() {
+            let twin = pool[..i]
+                .iter()
+                .any(|o| o.contract().name == c.contract().name);
+            if twin {
+                let problem = format!("'{}' a second time", c.contract().name);
+                return Err(invalid(
+                    "controllers",
+                    problem,
+                    "a name of its own for each controller",
+                ));
+            }
+        }
+        let place = pool
+            .iter()
+            .position(|c| c.contract().name == fallback)
+            .ok_or_else(|| {
+                let names: Vec<&str> = pool.iter().map(|c| c.contract().name.as_str()).collect();
+                invalid(
+                    "fallback",
+                    format!("'{fallback}'"),
+                    &format!("a controller of the pool: {}", names.join(", ")),
+                )
+            })?;
+        let last = pool[place].contract();
+        if last.precondition != Condition::Always
+            || last.expected != Condition::Always
+            || last.weight == 0
+        {
+            let problem = format!("'{fallback}', which does not accept every state");
+            return Err(invalid(
+                "fallback",
+                problem,
+                "a controller with weight above 0 and pre-condition and expected performance Always",
+            ));
+        }
+        let of = |f: fn(&Contract) -> Condition| {
+            Condition::Any(pool.iter().map(|c| f(c.contract())).collect())
+        };
+        let contract = Contract {
+            name: name.to_owned(),
+            weight: pool.iter().map(|c| c.contract().weight).max().unwrap_or(0),
+            precondition: of(|c| c.precondition.clone()),
+            postcondition: Condition::Never,
+            expected: Condition::Always,
+            hold: 0.0,
+            patience: f64::INFINITY,
+            commands: pool
+                .iter()
+                .flat_map(|c| c.contract().commands.clone())
+                .collect(),
+        };
+        let member = |controller| Member {
+            controller,
+            recovers_at: f64::NEG_INFINITY,
+        };
+        Ok(Self {
+            contract,
+            pool: pool.into_iter().map(member).collect(),
+            fallback: place,
+            active: None,
+            pending: Vec::new(),
+            decisions: Vec::new(),
+        })
+    }
+
+    /// The pool.
+    pub fn controllers(&self) -> impl Iterator<Item = &dyn Controller> {
+        self.pool.iter().map(|m| &*m.controller)
+    }
+
+    /// Name of the active controller; none before the first step.
+    #[must_use]
+    pub fn active(&self) -> Option<&str> {
+        self.active.map(|a| self.name(a.member))
+    }
+
+    /// Place of the active controller in the pool.
+    #[must_use]
+    pub fn active_index(&self) -> Option<usize> {
+        self.active.map(|a| a.member)
+    }
+
+    /// Place of the fallback in the pool.
+    #[must_use]
+    pub fn fallback_index(&self) -> usize {
+        self.fallback
+    }
+
+    fn name(&self, member: usize) -> &str {
+        &self.pool[member].controller.contract().name
+    }
+
+    /// Parses a command string and hands it to the controller that answers to it. It takes effect
+    /// in the next step, where the controller's pre-condition decides.
+    ///
+    /// # Errors
+    /// A malformed command, or one that nobody answers to, with the nearest name.
+    pub fn command(&mut self, text: &str) -> Result<()> {
+        let command: Command = text.parse()?;
+        if self.obey(&command)? {
+            Ok(())
+        } else {
+            let known = self.contract.commands.iter().map(|a| a.name.as_str());
+            Err(Error::unknown("command", &command.name, known))
+        }
+    }
+
+    /// What each controller would say now.
+    #[must_use]
+    pub fn bids(&self, now: &Sensors) -> Vec<Bid> {
+        let bid = |m: &Member| {
+            let suitability = m.bid(now);
+            let contract = m.controller.contract();
+            let refusal = (suitability == 0).then(|| {
+                if contract.weight == 0 {
+                    "only on command".to_owned()
+                } else if now.time < m.recovers_at {
+                    "has just failed".to_owned()
+                } else {
+                    let failure = contract.precondition.first_failure(now);
+                    failure.map_or_else(|| "declines".to_owned(), |r| r.to_string())
+                }
+            });
+            Bid {
+                controller: contract.name.clone(),
+                suitability,
+                refusal,
+            }
+        };
+        self.pool.iter().map(bid).collect()
+    }
+
+    /// The member with the highest bid, the earliest of equals; the fallback if all bid 0.
+    #[must_use]
+    pub fn arbitrate(&self, now: &Sensors) -> usize {
+        let mut best = (self.fallback, 0);
+        for (i, m) in self.pool.iter().enumerate() {
+            let bid = m.bid(now);
+            if bid > best.1 {
+                best = (i, bid);
+            }
+        }
+        best.0
+    }
+
+    /// Judges the active controller; returns why there should be an arbitration.
+    fn judge(&mut self, now: &Sensors) -> Option<Why> {
+        let Some(active) = &mut self.active else {
+            return Some(Why::Start);
+        };
+        let controller = &self.pool[active.member].controller;
+        if controller.contract().postcondition.holds(now) {
+            active.reached.get_or_insert(now.time);
+        } else {
+            active.reached = None;
+        }
+        let elapsed = now.time - active.since;
+        let kept = active.reached.map(|since| now.time - since);
+        match controller.progress(now, elapsed, kept) {
+            Progress::Running => None,
+            Progress::Succeeded if elapsed < DWELL => None,
+            Progress::Succeeded => Some(Why::Succeeded),
+            Progress::Failed(reason) => {
+                self.pool[active.member].recovers_at = now.time + RECOVERY;
+                Some(Why::Failed(reason))
+            }
+        }
+    }
+
+    fn switch(&mut self, now: &Sensors, member: usize, why: Why) {
+        self.decisions.push(Decision::Switch {
+            time: now.time,
+            from: self.active().map(str::to_owned),
+            to: self.name(member).to_owned(),
+            why,
+            bids: self.bids(now),
+        });
+        self.active = Some(Active {
+            member,
+            since: now.time,
+            reached: None,
+        });
+        self.pool[member].controller.enter(now);
+    }
+
+    /// Calls the commanded controller if its pre-condition holds, else reports the refusing clause.
+    fn follow(&mut self, now: &Sensors, member: usize, command: &Command) {
+        let refusal = self.pool[member]
+            .controller
+            .contract()
+            .precondition
+            .first_failure(now);
+        let refusal = refusal.map(|r| (r.to_string(), r.value));
+        let (time, text) = (now.time, command.to_string());
+        if let Some((clause, value)) = refusal {
+            let controller = self.name(member).to_owned();
+            self.decisions.push(Decision::Refused {
+                time,
+                command: text,
+                controller,
+                clause,
+                value,
+            });
+        } else {
+            self.decisions.push(Decision::Obeyed {
+                time,
+                command: text,
+            });
+            self.switch(now, member, Why::Command);
+        }
+    }
+}
+
+impl Member {
+    fn bid(&self, now: &Sensors) -> u32 {
+        if now.time < self.recovers_at {
+            0
+        } else {
+            self.controller.suitability(now)
+        }
+    }
+}
+
+impl Controller for Supervisor {
+    fn contract(&self) -> &Contract {
+        &self.contract
+    }
+
+    fn enter(&mut self, _: &Sensors) {
+        self.active = None;
+        for m in &mut self.pool {
+            m.recovers_at = f64::NEG_INFINITY;
+        }
+    }
+
+    fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
+        for (member, command) in std::mem::take(&mut self.pending) {
+            self.follow(now, member, &command);
+        }
+        if let Some(why) = self.judge(now) {
+            let best = self.arbitrate(now);
+            if self.active.is_none_or(|a| a.member != best) {
+                self.switch(now, best, why);
+            }
+        }
+        torques.fill(0.0);
+        if let Some(active) = self.active {
+            self.pool[active.member].controller.act(now, torques);
+        }
+    }
+
+    fn clone_box(&self) -> Box<dyn Controller> {
+        Box::new(self.clone())
+    }
+
+    fn obey(&mut self, command: &Command) -> Result<bool> {
+        for (i, m) in self.pool.iter_mut().enumerate() {
+            if m.controller.obey(command)? {
+                self.pending.push((i, command.clone()));
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn reference_com(&self) -> Option<f64> {
+        self.active
+            .and_then(|a| self.pool[a.member].controller.reference_com())
+    }
+
+    fn take_decisions(&mut self) -> Vec<Decision> {
+        let mut all = std::mem::take(&mut self.decisions);
+        for m in &mut self.pool {
+            all.append(&mut m.controller.take_decisions());
+        }
+        all
+    }
+}

@@ -1,0 +1,339 @@
+//! Our own owner of rapier sets: ground, characters, props, pushes, stepping, cloning.
+//!
+//! A clone continues bit for bit like its original.
+
+use std::sync::Arc;
+
+use rapier2d::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::body::{Body, outline, vector};
+use crate::model::{Model, Point, Shape};
+use crate::sensors::Sensors;
+use crate::state::State;
+
+/// Physical settings of a world, the same for all controllers.
+///
+/// The defaults are chosen by measurement: `ARCHITECTURE.md`, "Contact settings".
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// Step, s.
+    pub dt: f64,
+    /// m/s², downwards positive.
+    pub gravity: f64,
+    /// Friction coefficient of the ground.
+    pub friction: f64,
+    /// Natural frequency of contacts, Hz.
+    pub contact_frequency: f64,
+    /// Damping ratio of contacts.
+    pub contact_damping: f64,
+    /// Solver iterations a step.
+    pub iterations: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            dt: 1e-3,
+            gravity: 9.81,
+            friction: 1.0,
+            contact_frequency: 240.0,
+            contact_damping: 10.0,
+            iterations: 4,
+        }
+    }
+}
+
+/// A thing in the world that is no character.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Prop {
+    /// For messages and drawings.
+    pub name: String,
+    /// Its outline about its own frame.
+    pub shape: Shape,
+    /// kg; 0 is fixed to the world.
+    pub mass: f64,
+    /// Where its frame is at first, m.
+    pub position: Point,
+    /// rad
+    #[serde(default)]
+    pub angle: f64,
+    /// m/s
+    #[serde(default)]
+    pub velocity: Point,
+    /// Friction coefficient.
+    #[serde(default = "one")]
+    pub friction: f64,
+    /// Restitution coefficient.
+    #[serde(default)]
+    pub restitution: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// A character in the world with what it senses.
+#[derive(Debug, Clone)]
+pub struct Character {
+    /// Its links in the engine.
+    pub body: Body,
+    /// As of the last [`World::sense`].
+    pub sensors: Sensors,
+}
+
+#[derive(Debug, Clone)]
+struct Push {
+    handle: RigidBodyHandle,
+    force: Vector,
+    steps: u32,
+}
+
+/// Level ground at y = 0, characters and props, under rapier2d.
+pub struct World {
+    settings: Settings,
+    steps: u64,
+    characters: Vec<Character>,
+    props: Vec<(Prop, RigidBodyHandle)>,
+    pushes: Vec<Push>,
+    parameters: IntegrationParameters,
+    pipeline: PhysicsPipeline,
+    islands: IslandManager,
+    broad_phase: BroadPhaseBvh,
+    narrow_phase: NarrowPhase,
+    bodies: RigidBodySet,
+    colliders: ColliderSet,
+    impulse_joints: ImpulseJointSet,
+    multibody_joints: MultibodyJointSet,
+    soft_bodies: SoftBodySet,
+    ccd: CCDSolver,
+}
+
+impl std::fmt::Debug for World {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("World")
+            .field("settings", &self.settings)
+            .field("steps", &self.steps)
+            .field("characters", &self.characters.len())
+            .field("props", &self.props.len())
+            .finish_non_exhaustive()
+    }
+}
+
+impl Clone for World {
+    fn clone(&self) -> Self {
+        Self {
+            settings: self.settings,
+            steps: self.steps,
+            characters: self.characters.clone(),
+            props: self.props.clone(),
+            pushes: self.pushes.clone(),
+            parameters: self.parameters,
+            pipeline: PhysicsPipeline::new(), // a workspace, without memory between steps
+            islands: self.islands.clone(),
+            broad_phase: self.broad_phase.clone(),
+            narrow_phase: self.narrow_phase.clone(),
+            bodies: self.bodies.clone(),
+            colliders: self.colliders.clone(),
+            impulse_joints: self.impulse_joints.clone(),
+            multibody_joints: self.multibody_joints.clone(),
+            soft_bodies: self.soft_bodies.clone(),
+            ccd: self.ccd.clone(),
+        }
+    }
+}
+
+/// The engine's parameters for our settings: stiff contacts, recomputed every step.
+#[must_use]
+pub fn integration_parameters(settings: &Settings) -> IntegrationParameters {
+    let softness = SpringCoefficients::new(
+        settings.contact_frequency as f32,
+        settings.contact_damping as f32,
+    );
+    IntegrationParameters {
+        dt: settings.dt as f32,
+        contact_softness: softness,
+        static_contact_softness: softness,
+        num_solver_iterations: settings.iterations,
+        contact_recycling: false,
+        ..IntegrationParameters::default()
+    }
+}
+
+impl World {
+    /// Level ground and nothing on it.
+    #[must_use]
+    pub fn new(settings: Settings) -> Self {
+        let mut colliders = ColliderSet::new();
+        colliders.insert(
+            ColliderBuilder::new(SharedShape::halfspace(Vector::Y))
+                .friction(settings.friction as f32),
+        );
+        Self {
+            settings,
+            steps: 0,
+            characters: Vec::new(),
+            props: Vec::new(),
+            pushes: Vec::new(),
+            parameters: integration_parameters(&settings),
+            pipeline: PhysicsPipeline::new(),
+            islands: IslandManager::new(),
+            broad_phase: BroadPhaseBvh::new(),
+            narrow_phase: NarrowPhase::new(),
+            bodies: RigidBodySet::new(),
+            colliders,
+            impulse_joints: ImpulseJointSet::new(),
+            multibody_joints: MultibodyJointSet::new(),
+            soft_bodies: SoftBodySet::new(),
+            ccd: CCDSolver::new(),
+        }
+    }
+
+    /// Physical settings.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// s since the world began.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.settings.dt
+    }
+
+    /// Adds a character in a state; returns its place in [`Self::characters`].
+    pub fn spawn(&mut self, model: &Arc<Model>, state: &State) -> usize {
+        let layer = self.characters.len() as u8;
+        let body = Body::spawn(
+            model,
+            state,
+            layer,
+            &mut self.bodies,
+            &mut self.colliders,
+            &mut self.impulse_joints,
+        );
+        let sensors = Sensors::new(model, self.settings.gravity);
+        self.characters.push(Character { body, sensors });
+        self.characters.len() - 1
+    }
+
+    /// Adds a prop; returns its place in [`Self::prop_poses`].
+    pub fn add_prop(&mut self, prop: &Prop) -> usize {
+        let builder = if prop.mass > 0.0 {
+            RigidBodyBuilder::dynamic()
+        } else {
+            RigidBodyBuilder::fixed()
+        };
+        let rigid = builder
+            .pose(Pose::new(vector(prop.position), prop.angle as f32))
+            .linvel(vector(prop.velocity))
+            .can_sleep(false);
+        let handle = self.bodies.insert(rigid);
+        let collider = outline(&prop.shape)
+            .mass(prop.mass.max(0.0) as f32)
+            .friction(prop.friction as f32)
+            .restitution(prop.restitution as f32);
+        self.colliders
+            .insert_with_parent(collider, handle, &mut self.bodies);
+        self.props.push((prop.clone(), handle));
+        self.props.len() - 1
+    }
+
+    /// Characters with what they sensed last.
+    #[must_use]
+    pub fn characters(&self) -> &[Character] {
+        &self.characters
+    }
+
+    /// The props.
+    pub fn props(&self) -> impl Iterator<Item = &Prop> {
+        self.props.iter().map(|(p, _)| p)
+    }
+
+    /// (x, y, angle) of every prop, m and rad, in single precision as in the engine.
+    pub fn prop_poses(&self) -> impl Iterator<Item = [f32; 3]> {
+        self.props.iter().map(|(_, handle)| {
+            let body = &self.bodies[*handle];
+            let at = body.translation();
+            [at.x, at.y, body.rotation().angle()]
+        })
+    }
+
+    /// Pushes a link at its centre of mass with an impulse (N·s, world frame) spread evenly over
+    /// `duration` s, from the next step on.
+    pub fn push(&mut self, character: usize, link: usize, impulse: Point, duration: f64) {
+        let steps = (duration / self.settings.dt).round().max(1.0) as u32;
+        let over = f64::from(steps) * self.settings.dt;
+        self.pushes.push(Push {
+            handle: self.characters[character].body.link(link),
+            force: vector([impulse[0] / over, impulse[1] / over]),
+            steps,
+        });
+    }
+
+    /// Finds contacts without moving anything: for sensing before the first step.
+    pub fn detect_contacts(&mut self) {
+        CollisionPipeline::new().step(
+            self.parameters.prediction_distance(),
+            &mut self.islands,
+            &mut self.broad_phase,
+            &mut self.narrow_phase,
+            &mut self.bodies,
+            &mut self.colliders,
+            &(),
+            &(),
+        );
+    }
+
+    /// Brings a character's sensors up to date and returns them.
+    pub fn sense(&mut self, character: usize) -> &Sensors {
+        let time = self.time();
+        let Character { body, sensors } = &mut self.characters[character];
+        sensors.time = time;
+        body.sense(
+            &self.bodies,
+            &self.colliders,
+            &self.narrow_phase,
+            self.settings.dt,
+            sensors,
+        );
+        sensors
+    }
+
+    /// Sets a character's joint torques for the next step, N·m in the model's order.
+    pub fn actuate(&mut self, character: usize, torques: &[f64]) {
+        self.characters[character]
+            .body
+            .actuate(&mut self.bodies, torques);
+    }
+
+    /// One step of `dt`.
+    pub fn step(&mut self) {
+        for push in &self.pushes {
+            self.bodies[push.handle].add_force(push.force, false);
+        }
+        self.pipeline.step(
+            Vector::new(0.0, -self.settings.gravity as f32),
+            &self.parameters,
+            &mut self.islands,
+            &mut self.broad_phase,
+            &mut self.narrow_phase,
+            &mut self.bodies,
+            &mut self.colliders,
+            &mut self.impulse_joints,
+            &mut self.multibody_joints,
+            &mut self.soft_bodies,
+            &mut self.ccd,
+            &(),
+            &(),
+        );
+        for push in &mut self.pushes {
+            self.bodies[push.handle].reset_forces(false);
+            push.steps -= 1;
+        }
+        self.pushes.retain(|p| p.steps > 0);
+        self.steps += 1;
+    }
+}
