@@ -1,1 +1,33 @@
-//! wip
+//! The motor skills of Aplomb, one file each, and the repertoires that put them together.
+//!
+//! | file | kind | what it does |
+//! |---|---|---|
+//! | [`balance`] | `balance` | stands by momentum control |
+//! | [`stance`] | `stance` | stands as an inverted pendulum |
+//! | [`fall`] | `fall` | breaks falls with the hands, folds knees and trunk |
+//! | [`rest`] | `rest` | lets go; the fallback |
+//! | [`pose`] | `pose` | a state machine of target poses, as data |
+//!
+//! They share [`momentum`] (momentum control), [`quadratic_program`] (its solver), [`servo`]
+//! (joint servos) and [`target`] (poses by joint name).
+
+pub mod balance;
+pub mod momentum;
+pub mod quadratic_program;
+pub mod rest;
+pub mod servo;
+pub mod target;
+
+use aplomb_framework::registry::Registry;
+
+/// All the kinds of controllers and all shipped files.
+#[must_use]
+pub fn registry() -> Registry {
+    Registry::new()
+        .with::<balance::BalanceSpec>()
+        .with::<rest::RestSpec>()
+        .with_file(
+            "repertoires/humanoid.ron",
+            include_str!("../repertoires/humanoid.ron"),
+        )
+}

@@ -1,0 +1,127 @@
+//! Controllers as files: RON → [`Spec`] → [`Controller`]. A registry knows the kinds of controllers
+//! and the shipped files; it is a value that is passed, never a global.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use ron::value::RawValue;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use crate::contract::Contract;
+use crate::controller::Controller;
+use crate::error::{Error, Result};
+use crate::file::{Source, options};
+use crate::model::Model;
+
+/// The parameters of one kind of controller, as in the `spec` field of a file.
+pub trait Spec: DeserializeOwned {
+    /// The kind's name, as in the `kind` field: `balance`, `pose`.
+    const KIND: &'static str;
+
+    /// Builds the controller for a character. This is where joint names are looked up and numbers
+    /// are checked: control itself cannot fail.
+    ///
+    /// # Errors
+    /// Whatever the spec names and the model lacks, and numbers out of bounds.
+    fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>>;
+}
+
+/// A controller file.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ControllerFile {
+    /// A registered kind.
+    pub kind: String,
+    /// What the controller promises.
+    pub contract: Contract,
+    /// The kind's parameters.
+    #[serde(default = "empty")]
+    pub spec: Box<RawValue>,
+}
+
+fn empty() -> Box<RawValue> {
+    RawValue::from_ron("()")
+        .map(ToOwned::to_owned)
+        .unwrap_or_else(|_| unreachable!("() is RON"))
+}
+
+type Build = fn(&Source, &RawValue, Contract, &Arc<Model>) -> Result<Box<dyn Controller>>;
+
+/// The kinds of controllers and the shipped files that can be referred to by name.
+#[derive(Debug, Clone, Default)]
+pub struct Registry {
+    kinds: BTreeMap<&'static str, Build>,
+    files: BTreeMap<&'static str, &'static str>,
+}
+
+impl Registry {
+    /// Knows nothing.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a kind of controller.
+    #[must_use]
+    pub fn with<S: Spec>(mut self) -> Self {
+        self.kinds.insert(S::KIND, build::<S>);
+        self
+    }
+
+    /// Adds a shipped file under its name, for example `poses/bow.ron`.
+    #[must_use]
+    pub fn with_file(mut self, name: &'static str, text: &'static str) -> Self {
+        self.files.insert(name, text);
+        self
+    }
+
+    /// A shipped file.
+    #[must_use]
+    pub fn file(&self, name: &str) -> Option<Source> {
+        let text = self.files.get(name)?;
+        Some(Source::new(format!("built-in {name}"), *text))
+    }
+
+    /// Names of the shipped files.
+    pub fn files(&self) -> impl Iterator<Item = &'static str> + '_ {
+        self.files.keys().copied()
+    }
+
+    /// Builds a controller from a parsed file. `source` is the text that the file stands in.
+    ///
+    /// # Errors
+    /// An unknown kind, with the nearest; a spec or contract that does not fit the character.
+    pub fn build(
+        &self,
+        source: &Source,
+        file: &ControllerFile,
+        model: &Arc<Model>,
+    ) -> Result<Box<dyn Controller>> {
+        let place = source.place(&format!("\"{}\"", file.contract.name));
+        let build = self.kinds.get(file.kind.as_str()).ok_or_else(|| {
+            Error::unknown("controller kind", &file.kind, self.kinds.keys().copied()).at(&place)
+        })?;
+        let mut contract = file.contract.clone();
+        let at = |e: Error| e.at(&format!("{place}: {}", file.contract.name));
+        contract.resolve(model).map_err(at)?;
+        build(source, &file.spec, contract, model).map_err(at)
+    }
+}
+
+fn build<S: Spec>(
+    source: &Source,
+    raw: &RawValue,
+    contract: Contract,
+    model: &Arc<Model>,
+) -> Result<Box<dyn Controller>> {
+    let text = raw.get_ron();
+    let spec: S = options().from_str(text).map_err(|e| {
+        let start = source.text.find(text).unwrap_or(0);
+        let before = &source.text[..start];
+        let line = before.matches('\n').count();
+        let column = before.len() - before.rfind('\n').map_or(0, |i| i + 1);
+        source.syntax(&e, (line, column))
+    })?;
+    spec.build(contract, model)
+}

@@ -1,0 +1,174 @@
+//! Standing balance by momentum control (2017 paper, section 3): the centre of mass is kept over a
+//! reference point of the base of support while a pose is tracked.
+//!
+//! Fails when the capture point leaves what the soles, the trunk and the arms can bring back, when
+//! a push lifts both feet, or on ground that slides. Gains: the result of `aplomb train balance`
+//! (CMA-ES over pushes at the limit, seeds in the repertoire's file).
+
+use std::sync::Arc;
+
+use aplomb_framework::contract::Contract;
+use aplomb_framework::controller::Controller;
+use aplomb_framework::kinematics::Kinematics;
+use aplomb_framework::model::Model;
+use aplomb_framework::registry::Spec;
+use aplomb_framework::sensors::Sensors;
+use aplomb_framework::state::State;
+use aplomb_framework::{Result, simulation};
+use serde::{Deserialize, Serialize};
+
+use crate::momentum::{Formulation, Gains, Momentum, Reference};
+use crate::servo::Servo;
+use crate::target::{NamedAngles, bounded, overlay};
+
+/// Parameters of [`Balance`] in a file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct BalanceSpec {
+    /// Which quadratic program.
+    pub formulation: Formulation,
+    /// Gains and weights.
+    pub gains: Gains,
+    /// Reference pose, rad; joints that are not named are 0.
+    pub pose: NamedAngles,
+    /// W: weights of joints within the tracking; those not named have 1.
+    pub joint_weights: NamedAngles,
+    /// Reference centre of mass ahead of the middle of the soles, m.
+    pub com_ahead: f64,
+}
+
+impl Default for BalanceSpec {
+    fn default() -> Self {
+        Self {
+            formulation: Formulation::Inequality,
+            gains: Gains::default(),
+            pose: NamedAngles::new(),
+            joint_weights: NamedAngles::new(),
+            com_ahead: 0.0,
+        }
+    }
+}
+
+/// The controller.
+#[derive(Debug, Clone)]
+pub struct Balance {
+    contract: Contract,
+    momentum: Momentum,
+    reference: Reference,
+    com_ahead: f64,
+    /// Height of the centre of mass in the reference pose, m.
+    height: f64,
+    servo: Servo,
+}
+
+impl Spec for BalanceSpec {
+    const KIND: &'static str = "balance";
+
+    fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
+        let place = contract.name.clone();
+        let g = &self.gains;
+        for (field, value, low, high) in [
+            ("gains.kl", g.kl, 0.0, 1e4),
+            ("gains.dl", g.dl, 0.0, 1e4),
+            ("gains.kl_height", g.kl_height, 0.0, 1e4),
+            ("gains.dl_height", g.dl_height, 0.0, 1e4),
+            ("gains.dh", g.dh, 0.0, 1e3),
+            ("gains.kt", g.kt, 0.0, 1e4),
+            ("gains.dt", g.dt, 0.0, 1e3),
+            ("gains.linear", g.linear, 1e-6, 1e6),
+            ("gains.angular", g.angular, 0.0, 1e6),
+            ("gains.tracking", g.tracking, 1e-6, 1e6),
+            ("gains.root", g.root, 1e-3, 1e3),
+            ("gains.feet", g.feet, 1e-3, 1e9),
+            ("gains.feet_damping", g.feet_damping, 0.0, 200.0),
+            ("gains.margin", g.margin, 0.0, 0.1),
+            ("gains.friction", g.friction, 0.01, 10.0),
+            ("gains.strength", g.strength, 0.01, 1.0),
+            ("gains.period", g.period, 0.0, 0.1),
+            ("com_ahead", self.com_ahead, -0.2, 0.2),
+        ] {
+            bounded(&place, field, value, low, high)?;
+        }
+        let mut pose = vec![0.0; model.joint_count()];
+        overlay(model, &self.pose, "pose", [-7.0, 7.0], &mut pose)?;
+        let mut weights = vec![1.0; model.joint_count()];
+        overlay(
+            model,
+            &self.joint_weights,
+            "joint_weights",
+            [1e-3, 1e3],
+            &mut weights,
+        )?;
+        Ok(Box::new(Balance {
+            momentum: Momentum::new(model, self.formulation, self.gains, weights),
+            height: com_height(model, &pose),
+            reference: Reference {
+                com: [0.0; 2],
+                com_velocity: [0.0; 2],
+                rates: vec![0.0; pose.len()],
+                pose,
+                pitch: 0.0,
+            },
+            com_ahead: self.com_ahead,
+            servo: Servo::new(model, 0.5, 1.0),
+            contract,
+        }))
+    }
+}
+
+/// Height of the centre of mass above the lowest point of a pose with the root upright, m.
+fn com_height(model: &Model, pose: &[f64]) -> f64 {
+    let mut state = State::standing(model);
+    state.q[3..].copy_from_slice(pose);
+    simulation::put_on_ground(model, &mut state, 0.0);
+    let mut kinematics = Kinematics::new(model);
+    kinematics.update(model, &state);
+    kinematics.com[1]
+}
+
+/// Rear and front end of the soles of the touching feet, whether flat or tilted, world x, m.
+pub(crate) fn soles(now: &Sensors) -> Option<[f64; 2]> {
+    let mut ends: Option<[f64; 2]> = None;
+    for (foot, contact) in now.model.feet.iter().zip(&now.feet) {
+        if contact.touching() {
+            for p in [foot.heel, foot.toe] {
+                let x = now.kinematics.point(foot.link, p)[0];
+                let [rear, front] = ends.unwrap_or([x, x]);
+                ends = Some([rear.min(x), front.max(x)]);
+            }
+        }
+    }
+    ends
+}
+
+impl Controller for Balance {
+    fn contract(&self) -> &Contract {
+        &self.contract
+    }
+
+    fn enter(&mut self, now: &Sensors) {
+        self.momentum.reset();
+        self.reference.com = now.com;
+    }
+
+    fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
+        if let Some([rear, front]) = soles(now) {
+            self.reference.com = [
+                0.5 * (rear + front) + self.com_ahead,
+                now.ground + self.height,
+            ];
+        }
+        let on_ground = now.base_of_support.is_some();
+        if !(on_ground && self.momentum.torques(now, &self.reference, torques)) {
+            self.servo.track(now, &self.reference.pose, 1.0, torques);
+        }
+    }
+
+    fn clone_box(&self) -> Box<dyn Controller> {
+        Box::new(self.clone())
+    }
+
+    fn reference_com(&self) -> Option<f64> {
+        Some(self.reference.com[0])
+    }
+}

@@ -1,0 +1,480 @@
+//! Momentum control of balance: joint torques that steer linear and angular momentum while a pose
+//! is tracked and the feet stay put.
+//!
+//! After Rabbani, van de Panne, Kry 2017, section 3, equations 1 to 10 (there after Macchietto et
+//! al. 2009). Two formulations:
+//! - *equality*: the paper's. minimise β_l C_l + β_h C_h + β_t C_t subject to J_s q̈ + J̇_s q̇ = a (6),
+//!   then floating-base inverse dynamics: contact forces λ that carry the root (9), torques (10).
+//! - *inequality*: one quadratic program over accelerations and contact forces, with the centre of
+//!   pressure inside each foot, the friction cone, torque limits and joint ranges as constraints.
+//!
+//! L̇ is divided by the mass and Ḣ by mass × half a metre, so that the weights compare accelerations
+//! and carry over between characters.
+//!
+//! sensors + [`Reference`] → quadratic program → torques. Nothing is allocated after building.
+
+use std::sync::Arc;
+
+use aplomb_framework::dynamics::Dynamics;
+use aplomb_framework::model::Model;
+use aplomb_framework::sensors::Sensors;
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::quadratic_program::{ActiveSet, Outcome, Problem};
+
+/// Which quadratic program is solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Formulation {
+    /// The paper's equality-constrained program and inverse dynamics.
+    Equality,
+    /// With contact, torque and range limits as constraints.
+    Inequality,
+}
+
+/// Gains and weights; the symbols are the paper's.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Gains {
+    /// k_l, 1/s²: pull of the centre of mass towards its reference.
+    pub kl: f64,
+    /// d_l, 1/s.
+    pub dl: f64,
+    /// The same for its height, 1/s².
+    pub kl_height: f64,
+    /// 1/s
+    pub dl_height: f64,
+    /// Damping of angular momentum, 1/s.
+    pub dh: f64,
+    /// k_t, 1/s²: pull of the joints towards the reference pose.
+    pub kt: f64,
+    /// d_t, 1/s.
+    pub dt: f64,
+    /// β_l: weight of linear momentum.
+    pub linear: f64,
+    /// β_h: weight of angular momentum.
+    pub angular: f64,
+    /// β_t: weight of pose tracking.
+    pub tracking: f64,
+    /// Weight of the root's pitch within the tracking.
+    pub root: f64,
+    /// Weight of the feet's accelerations (inequality formulation).
+    pub feet: f64,
+    /// Damping of the feet's motion, 1/s.
+    pub feet_damping: f64,
+    /// m by which the centre of pressure keeps inside the sole's ends.
+    pub margin: f64,
+    /// Friction coefficient that is relied on.
+    pub friction: f64,
+    /// Fraction of the muscles' torque that is used.
+    pub strength: f64,
+    /// s between two solutions.
+    pub period: f64,
+}
+
+impl Default for Gains {
+    fn default() -> Self {
+        Self {
+            kl: 60.0,
+            dl: 20.0,
+            kl_height: 60.0,
+            dl_height: 15.0,
+            dh: 4.0,
+            kt: 20.0,
+            dt: 9.0,
+            linear: 10.0,
+            angular: 1.0,
+            tracking: 0.005,
+            root: 1.0,
+            feet: 1000.0,
+            feet_damping: 30.0,
+            margin: 0.003,
+            friction: 0.8,
+            strength: 1.0,
+            period: 0.004,
+        }
+    }
+}
+
+/// What is aimed at.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    /// c_r, m, world.
+    pub com: [f64; 2],
+    /// ċ_r, m/s.
+    pub com_velocity: [f64; 2],
+    /// θ_r: joint angles, rad.
+    pub pose: Vec<f64>,
+    /// θ̇_r, rad/s.
+    pub rates: Vec<f64>,
+    /// Pitch of the root, rad.
+    pub pitch: f64,
+}
+
+/// A lever of half a metre makes angular momentum comparable to linear.
+const LEVER: f64 = 0.5;
+/// Keeps the programs strictly convex.
+const RIDGE: f64 = 1e-6;
+/// Rate at which joints are kept from their range's ends, 1/s.
+const RANGE_RATE: f64 = 25.0;
+/// rad from a range's end within which it is a constraint.
+const RANGE_NEAR: f64 = 0.3;
+
+/// The controller's workspace for one character.
+#[derive(Debug, Clone)]
+pub struct Momentum {
+    model: Arc<Model>,
+    formulation: Formulation,
+    gains: Gains,
+    /// W: weight of each joint within the tracking.
+    weights: Vec<f64>,
+    dynamics: Dynamics,
+    problem: Problem,
+    solver: ActiveSet,
+    /// 3 × dof a foot: x and y of the sole's centre, angle.
+    feet: Vec<f64>,
+    /// a − J̇q̇ of each foot's three rows.
+    feet_target: Vec<f64>,
+    acceleration: Vec<f64>,
+    /// (f_x, f_y, moment about the sole's centre) a foot, N and N·m.
+    wrench: Vec<f64>,
+    /// When the next solution is due, s.
+    due: f64,
+    solved: bool,
+}
+
+impl Momentum {
+    /// Workspace for a character. `weights` is W, one a joint.
+    #[must_use]
+    pub fn new(
+        model: &Arc<Model>,
+        formulation: Formulation,
+        gains: Gains,
+        weights: Vec<f64>,
+    ) -> Self {
+        let (dof, feet, joints) = (model.dof(), model.feet.len(), model.joint_count());
+        let n = match formulation {
+            Formulation::Equality => dof,
+            Formulation::Inequality => dof + 3 * feet,
+        };
+        let (equalities, inequalities) = (3 + 3 * feet, 4 * feet + 4 * joints);
+        Self {
+            model: Arc::clone(model),
+            formulation,
+            gains,
+            weights,
+            dynamics: Dynamics::new(model),
+            problem: Problem::new(n, equalities, inequalities),
+            solver: ActiveSet::new(n, equalities, inequalities),
+            feet: vec![0.0; 3 * dof * feet],
+            feet_target: vec![0.0; 3 * feet],
+            acceleration: vec![0.0; dof],
+            wrench: vec![0.0; 3 * feet],
+            due: f64::NEG_INFINITY,
+            solved: false,
+        }
+    }
+
+    /// Forgets the last solution.
+    pub fn reset(&mut self) {
+        self.due = f64::NEG_INFINITY;
+        self.solved = false;
+    }
+
+    /// The gains, to be scheduled.
+    pub fn gains_mut(&mut self) -> &mut Gains {
+        &mut self.gains
+    }
+
+    /// The gains.
+    #[must_use]
+    pub fn gains(&self) -> &Gains {
+        &self.gains
+    }
+
+    /// Joint torques for this step, N·m. Returns whether a solution stands behind them; without
+    /// one (no foot on the ground, no feasible program) the last solution's are used, or none.
+    pub fn torques(&mut self, now: &Sensors, reference: &Reference, torques: &mut [f64]) -> bool {
+        self.dynamics.update(&self.model, &now.state, now.gravity);
+        self.feet_jacobians();
+        if now.time >= self.due - 1e-9 {
+            self.due = now.time + self.gains.period;
+            let outcome = match self.formulation {
+                Formulation::Equality => self.solve_equality(now, reference),
+                Formulation::Inequality => self.solve_inequality(now, reference),
+            };
+            self.solved |= outcome;
+        }
+        self.inverse_dynamics(torques);
+        self.solved
+    }
+
+    /// u_x = M_x q̈* + h_x − J_sxᵀ λ (10); our λ is the force of the ground on the feet.
+    fn inverse_dynamics(&self, torques: &mut [f64]) {
+        let n = self.dynamics.dof();
+        for (j, torque) in torques.iter_mut().enumerate() {
+            let row = &self.dynamics.mass_matrix[(j + 3) * n..(j + 4) * n];
+            let mut u = self.dynamics.bias[j + 3] + dot(row, &self.acceleration);
+            for (k, w) in self.wrench.iter().enumerate() {
+                u -= self.feet[k * n + j + 3] * w;
+            }
+            *torque = u;
+        }
+    }
+
+    fn feet_jacobians(&mut self) {
+        let n = self.dynamics.dof();
+        for (f, foot) in self.model.feet.iter().enumerate() {
+            let rows = &mut self.feet[3 * f * n..3 * (f + 1) * n];
+            let centre = [
+                0.5 * (foot.heel[0] + foot.toe[0]),
+                0.5 * (foot.heel[1] + foot.toe[1]),
+            ];
+            let (position, angle) = rows.split_at_mut(2 * n);
+            self.dynamics.point_jacobian(foot.link, centre, position);
+            self.dynamics.angle_jacobian(foot.link, angle);
+            let velocity = self.dynamics.kinematics.point_velocity(foot.link, centre);
+            let bias = self.dynamics.point_bias(foot.link, centre);
+            let motion = &self.dynamics.kinematics.links[foot.link];
+            let d = self.gains.feet_damping;
+            let target = &mut self.feet_target[3 * f..3 * f + 3];
+            target[0] = -d * velocity[0] - bias[0];
+            target[1] = -d * velocity[1] - bias[1];
+            // A tilted foot is brought back flat.
+            target[2] = -d * motion.rate - 0.25 * d * d * motion.angle.sin();
+        }
+    }
+
+    /// (L̇_des, Ḣ_des) (1), with the centre of pressure of the force clamped to the support.
+    fn desired_momentum(&self, now: &Sensors, reference: &Reference) -> [f64; 3] {
+        let (g, m) = (&self.gains, self.model.total_mass());
+        let (c, v) = (now.com, now.com_velocity);
+        let lx = m * (g.kl * (reference.com[0] - c[0]) + g.dl * (reference.com_velocity[0] - v[0]));
+        let ly = m
+            * (g.kl_height * (reference.com[1] - c[1])
+                + g.dl_height * (reference.com_velocity[1] - v[1]));
+        let mut h = -g.dh * now.angular_momentum;
+        if let Some([rear, front]) = now.base_of_support {
+            let fy = (ly + m * now.gravity).max(0.2 * m * now.gravity);
+            let height = now.com_height();
+            let cop = c[0] - height * lx / fy;
+            let (low, high) = (rear + g.margin, front - g.margin);
+            let clamped = if low < high {
+                cop.clamp(low, high)
+            } else {
+                0.5 * (rear + front)
+            };
+            h += (clamped - cop) * fy;
+        }
+        [lx, ly, h]
+    }
+
+    /// Adds the weighted momentum and tracking objectives (3), (4), (5) to H and g.
+    fn objective(&mut self, now: &Sensors, reference: &Reference) {
+        let (n, dof) = (self.problem.n, self.dynamics.dof());
+        let g = &self.gains;
+        let m = self.model.total_mass();
+        let desired = self.desired_momentum(now, reference);
+        let scales = [1.0 / m, 1.0 / m, 1.0 / (m * LEVER)];
+        let betas = [g.linear, g.linear, g.angular];
+        self.problem.clear();
+        for k in 0..3 {
+            let row = &self.dynamics.centroidal_map[k * dof..(k + 1) * dof];
+            let target = desired[k] - self.dynamics.centroidal_bias[k];
+            let weight = betas[k] * scales[k] * scales[k];
+            add_row(&mut self.problem, n, row, target, weight);
+        }
+        let mut track = |dof: usize, target: f64, weight: f64| {
+            self.problem.h[dof * n + dof] += weight;
+            self.problem.g[dof] -= weight * target;
+        };
+        let s = &now.state;
+        let pitch = aplomb_framework::state::wrapped(reference.pitch - s.q[2]);
+        track(2, g.kt * pitch - g.dt * s.qdot[2], g.tracking * g.root);
+        for (j, w) in self.weights.iter().enumerate() {
+            let target = g.kt * (reference.pose[j] - s.q[j + 3])
+                + g.dt * (reference.rates[j] - s.qdot[j + 3]);
+            track(j + 3, target, g.tracking * w);
+        }
+        for i in 0..n {
+            self.problem.h[i * n + i] += RIDGE;
+        }
+    }
+
+    fn solve_equality(&mut self, now: &Sensors, reference: &Reference) -> bool {
+        let dof = self.dynamics.dof();
+        self.objective(now, reference);
+        let mut touching = false;
+        for (f, foot) in now.feet.iter().enumerate().filter(|(_, f)| f.touching()) {
+            touching |= foot.touching();
+            for k in 3 * f..3 * f + 3 {
+                let row = self.problem.equalities.push_row(self.feet_target[k]);
+                row.copy_from_slice(&self.feet[k * dof..(k + 1) * dof]);
+            }
+        }
+        if !touching || self.solver.solve(&self.problem) != Outcome::Optimal {
+            return false;
+        }
+        self.acceleration.copy_from_slice(self.solver.x());
+        // (9): the least forces of the touching feet that carry the root: λ = J (JᵀJ)⁻¹ r.
+        let mut carried = Vector3::zeros();
+        let mut gram = Matrix3::zeros();
+        for i in 0..3 {
+            let row = &self.dynamics.mass_matrix[i * dof..(i + 1) * dof];
+            carried[i] = dot(row, &self.acceleration) + self.dynamics.bias[i];
+        }
+        let root = |k: usize| {
+            Vector3::new(
+                self.feet[k * dof],
+                self.feet[k * dof + 1],
+                self.feet[k * dof + 2],
+            )
+        };
+        let rows = |f: usize| 3 * f..3 * f + 3;
+        for f in (0..now.feet.len()).filter(|f| now.feet[*f].touching()) {
+            for k in rows(f) {
+                gram += root(k) * root(k).transpose();
+            }
+        }
+        let Some(inverse) = gram.try_inverse() else {
+            return false;
+        };
+        let share = inverse * carried;
+        for f in 0..now.feet.len() {
+            for k in rows(f) {
+                let on = now.feet[f].touching();
+                self.wrench[k] = if on { root(k).dot(&share) } else { 0.0 };
+            }
+        }
+        true
+    }
+
+    fn solve_inequality(&mut self, now: &Sensors, reference: &Reference) -> bool {
+        let (n, dof) = (self.problem.n, self.dynamics.dof());
+        let unit = self.model.total_mass() * now.gravity.max(1.0);
+        // Unknowns of a foot: force over the weight, moment over the weight times 0.1 m.
+        let scale = [unit, unit, 0.1 * unit];
+        self.objective(now, reference);
+        for (f, foot) in now.feet.iter().enumerate() {
+            for k in 0..3 {
+                let i = dof + 3 * f + k;
+                self.problem.h[i * n + i] += 1e-3;
+                // A foot in the air is left to the tracking.
+                if foot.touching() {
+                    let row = &self.feet[(3 * f + k) * dof..(3 * f + k + 1) * dof];
+                    add_row(
+                        &mut self.problem,
+                        n,
+                        row,
+                        self.feet_target[3 * f + k],
+                        self.gains.feet,
+                    );
+                }
+            }
+        }
+        for i in 0..3 {
+            let row = self.problem.equalities.push_row(-self.dynamics.bias[i]);
+            row[..dof].copy_from_slice(&self.dynamics.mass_matrix[i * dof..(i + 1) * dof]);
+            for k in 0..self.wrench.len() {
+                row[dof + k] = -self.feet[k * dof + i] * scale[k % 3];
+            }
+        }
+        for (f, foot) in now.feet.iter().enumerate() {
+            self.contact_rows(f, foot.heel, foot.toe, dof + 3 * f);
+        }
+        self.torque_rows(scale);
+        let without_ranges = self.problem.inequalities.len();
+        self.range_rows(now);
+        if self.solver.solve(&self.problem) != Outcome::Optimal {
+            // The muscles cannot stop a joint in time: let its range do so.
+            self.problem.inequalities.truncate(without_ranges);
+            if self.solver.solve(&self.problem) != Outcome::Optimal {
+                return false;
+            }
+        }
+        let x = self.solver.x();
+        self.acceleration.copy_from_slice(&x[..dof]);
+        for (k, w) in self.wrench.iter_mut().enumerate() {
+            *w = x[dof + k] * scale[k % 3];
+        }
+        true
+    }
+
+    /// Centre of pressure inside what touches, friction cone; no force from what does not touch.
+    fn contact_rows(&mut self, f: usize, heel: bool, toe: bool, at: usize) {
+        let foot = &self.model.feet[f];
+        let half = 0.5 * (foot.toe[0] - foot.heel[0]);
+        // Moment = (centre of pressure ahead of the sole's centre) × f_y, in units of 0.1 m.
+        let inner = ((half - self.gains.margin) / 0.1).max(1e-3);
+        let low = if heel { -inner } else { 0.98 * inner };
+        let high = if toe { inner } else { -0.98 * inner };
+        if !heel && !toe {
+            for k in 0..3 {
+                self.problem.equalities.push_row(0.0)[at + k] = 1.0;
+            }
+            return;
+        }
+        let mu = self.gains.friction;
+        let rows = &mut self.problem.inequalities;
+        for (fx, fy, moment) in [
+            (0.0, -low, 1.0),
+            (0.0, high, -1.0),
+            (1.0, mu, 0.0),
+            (-1.0, mu, 0.0),
+        ] {
+            let row = rows.push_row(0.0);
+            (row[at], row[at + 1], row[at + 2]) = (fx, fy, moment);
+        }
+    }
+
+    /// |u_x| ≤ what the muscles can do.
+    fn torque_rows(&mut self, scale: [f64; 3]) {
+        let dof = self.dynamics.dof();
+        for (j, joint) in self.model.joints().enumerate() {
+            let limit = self.gains.strength * joint.torque;
+            let i = j + 3;
+            for sign in [1.0, -1.0] {
+                let row = self
+                    .problem
+                    .inequalities
+                    .push_row((-limit + sign * -self.dynamics.bias[i]) / limit);
+                let mass = &self.dynamics.mass_matrix[i * dof..(i + 1) * dof];
+                for (r, m) in row.iter_mut().zip(mass) {
+                    *r = sign * m / limit;
+                }
+                for k in 0..self.wrench.len() {
+                    row[dof + k] = -sign * self.feet[k * dof + i] * scale[k % 3] / limit;
+                }
+            }
+        }
+    }
+
+    /// Joints near the end of their range are slowed down before it: q̈ ≥ −ω² (q − q_min) − 2 ω q̇.
+    fn range_rows(&mut self, now: &Sensors) {
+        let w = RANGE_RATE;
+        for (j, joint) in self.model.joints().enumerate() {
+            let (q, v) = (now.state.q[j + 3], now.state.qdot[j + 3]);
+            let ends = [(1.0, q - joint.range[0]), (-1.0, joint.range[1] - q)];
+            for (sign, gap) in ends.into_iter().filter(|(_, gap)| *gap < RANGE_NEAR) {
+                // Bounded, so that a joint beyond its range is not asked for the impossible.
+                let least = (-w * w * gap - 2.0 * w * sign * v).min(30.0);
+                self.problem.inequalities.push_row(least)[j + 3] = sign;
+            }
+        }
+    }
+}
+
+/// Adds weight × (row·x − target)² / 2 to the objective.
+fn add_row(problem: &mut Problem, n: usize, row: &[f64], target: f64, weight: f64) {
+    for (i, a) in row.iter().enumerate().filter(|(_, a)| **a != 0.0) {
+        let wa = weight * a;
+        for (h, b) in problem.h[i * n..].iter_mut().zip(row) {
+            *h += wa * b;
+        }
+        problem.g[i] -= wa * target;
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}

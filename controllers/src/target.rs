@@ -1,0 +1,130 @@
+//! Poses as data: joint names to angles. A name may be a limb's stem for both sides: `hip` stands
+//! for `hip_r` and `hip_l`.
+
+use std::collections::BTreeMap;
+
+use aplomb_framework::model::Model;
+use aplomb_framework::{Error, Result};
+
+/// Target angles by joint name or stem, rad.
+pub type NamedAngles = BTreeMap<String, f64>;
+
+/// The joints that a name or stem stands for.
+///
+/// # Errors
+/// [`Error::Unknown`] if there is none.
+pub fn joints_named(model: &Model, name: &str) -> Result<Vec<usize>> {
+    if let Ok(joint) = model.joint_index(name) {
+        return Ok(vec![joint]);
+    }
+    let sides = [format!("{name}_r"), format!("{name}_l")];
+    let found: Vec<usize> = sides
+        .iter()
+        .filter_map(|n| model.joint_index(n).ok())
+        .collect();
+    if found.is_empty() {
+        model.joint_index(name).map(|j| vec![j])
+    } else {
+        Ok(found)
+    }
+}
+
+/// Writes the named values over `all`, one a joint; names of single joints win over stems.
+///
+/// # Errors
+/// An unknown joint, or a value outside `accepted`.
+pub fn overlay(
+    model: &Model,
+    named: &NamedAngles,
+    field: &str,
+    accepted: [f64; 2],
+    all: &mut [f64],
+) -> Result<()> {
+    for single in [false, true] {
+        for (name, value) in named {
+            let joints = joints_named(model, name)?;
+            if (joints.len() == 1) != single {
+                continue;
+            }
+            if !(*value >= accepted[0] && *value <= accepted[1]) {
+                return Err(Error::Invalid {
+                    place: field.to_owned(),
+                    field: name.clone(),
+                    problem: value.to_string(),
+                    accepted: format!("{} to {}", accepted[0], accepted[1]),
+                });
+            }
+            for joint in joints {
+                all[joint] = *value;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The pose with every joint's angle taken from the other side.
+#[must_use]
+pub fn mirrored(model: &Model, pose: &[f64]) -> Vec<f64> {
+    (0..pose.len())
+        .map(|j| pose[model.mirrored_joint(j)])
+        .collect()
+}
+
+/// A number of a spec that must lie between bounds.
+///
+/// # Errors
+/// [`Error::Invalid`] with the field and the bounds.
+pub fn bounded(place: &str, field: &str, value: f64, low: f64, high: f64) -> Result<()> {
+    if value >= low && value <= high {
+        return Ok(());
+    }
+    Err(Error::Invalid {
+        place: place.to_owned(),
+        field: field.to_owned(),
+        problem: value.to_string(),
+        accepted: format!("{low} to {high}"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stems_stand_for_both_sides_and_single_names_win() {
+        let model = Model::load("humanoid").unwrap();
+        let named: NamedAngles = [
+            ("hip_l".into(), 0.2),
+            ("hip".into(), 0.1),
+            ("waist".into(), -0.3),
+        ]
+        .into();
+        let mut pose = vec![0.0; 12];
+        overlay(&model, &named, "pose", [-7.0, 7.0], &mut pose).unwrap();
+        let at = |n| pose[model.joint_index(n).unwrap()];
+        assert_eq!(
+            (at("hip_r"), at("hip_l"), at("waist"), at("knee_r")),
+            (0.1, 0.2, -0.3, 0.0)
+        );
+        let other = mirrored(&model, &pose);
+        assert_eq!(other[model.joint_index("hip_r").unwrap()], 0.2);
+    }
+
+    #[test]
+    fn unknown_joints_and_wild_angles_are_refused() {
+        let model = Model::load("humanoid").unwrap();
+        let mut pose = vec![0.0; 12];
+        let mut refusal = |name: &str, value| {
+            let named = [(name.to_owned(), value)].into();
+            overlay(&model, &named, "pose", [-7.0, 7.0], &mut pose)
+                .unwrap_err()
+                .to_string()
+        };
+        assert!(
+            refusal("hipp", 0.1).contains("did you mean 'hip_"),
+            "{}",
+            refusal("hipp", 0.1)
+        );
+        assert!(refusal("hip", f64::NAN).contains("NaN"));
+    }
+}
