@@ -31,7 +31,7 @@ fn run(seconds: f64, impulse: f64, two: bool) -> Trajectory {
                 centre: [0.0, 0.0],
             },
             mass: 5.0,
-            position: [1.2, 0.2],
+            position: [2.6, 0.2],
             angle: 0.0,
             velocity: [0.0, 0.0],
             friction: 0.6,
@@ -56,7 +56,7 @@ fn run(seconds: f64, impulse: f64, two: bool) -> Trajectory {
         seed: 7,
         dt: 1e-3,
         cast: vec![cast; count],
-        props,
+        props: props.clone(),
     };
     let mut t = Trajectory::new(header, vec![Arc::clone(&model); count]);
     let mut event = |time, kind| {
@@ -82,7 +82,9 @@ fn run(seconds: f64, impulse: f64, two: bool) -> Trajectory {
     let mut active = 0;
     let mut fell = None;
     let mut events = vec![];
-    world.detect_contacts();
+    if props.is_empty() {
+        world.detect_contacts();
+    }
     for step in 0..=(seconds * 1000.0) as usize {
         let time = step as f64 * 1e-3;
         let mut row = vec![];

@@ -4,10 +4,10 @@
 use aplomb_framework::kinematics::Kinematics;
 use aplomb_framework::model::{Link, Model, Point, Shape};
 use aplomb_framework::state::State;
-use svg::node::element::{Circle, Group};
+use svg::node::element::{Circle, Group, Polyline};
 
 use super::camera::Camera;
-use super::style::{line, polygon, px};
+use super::style::{line, points, polygon, px};
 
 /// The colours of one character.
 #[derive(Debug, Clone, Copy)]
@@ -188,7 +188,13 @@ fn face(model: &Model, poses: &Kinematics, camera: &Camera, skin: &Skin) -> Opti
     };
     let world =
         |x: f64, y: f64| poses.point(model.head, [middle[0] + x * forward, middle[1] + y * up]);
-    let nose = [world(0.93, 0.22), world(1.32, -0.12), world(0.93, -0.22)];
+    let nose = [
+        world(0.8, 0.12),
+        world(1.0, 0.1),
+        world(1.34, -0.2),
+        world(0.96, -0.22),
+        world(0.8, -0.22),
+    ];
     let eye = world(0.52, 0.2);
     if !nose.iter().chain([&eye]).flatten().all(|x| x.is_finite()) {
         return None;
@@ -199,11 +205,14 @@ fn face(model: &Model, poses: &Kinematics, camera: &Camera, skin: &Skin) -> Opti
     Some(
         Group::new()
             .add(
-                polygon(&nose, skin.edge)
+                Polyline::new()
+                    .set("points", points(&nose[1..4]))
+                    .set("fill", skin.middle)
                     .set("stroke", skin.edge)
                     .set("stroke-width", px(edge))
                     .set("stroke-linejoin", "round"),
             )
+            .add(polygon(&[nose[0], nose[1], nose[3], nose[4]], skin.middle))
             .add(
                 Circle::new()
                     .set("cx", px(eye[0]))

@@ -106,9 +106,9 @@ impl Chart {
         Group::new().add(frame.set("stroke", FAINT_INK).set("stroke-width", 1))
     }
 
-    /// Indices of `len` samples to draw: all, or those with the extreme values of each half px.
+    /// Indices of `len` samples to draw: all, or those with the extreme values of each px.
     fn thinned(&self, len: usize, value: &impl Fn(usize) -> f64) -> Vec<usize> {
-        let buckets = (2.0 * self.size[0]) as usize;
+        let buckets = self.size[0] as usize;
         if len <= 2 * buckets {
             return (0..len).collect();
         }
@@ -139,7 +139,7 @@ impl Chart {
     ) -> Group {
         let mut group = Group::new();
         let mut run: Vec<[f64; 2]> = Vec::new();
-        let mut add = |group: Group, run: &mut Vec<[f64; 2]>| {
+        let add = |group: Group, run: &mut Vec<[f64; 2]>| {
             let group = if run.is_empty() {
                 group
             } else {
@@ -184,7 +184,8 @@ impl Chart {
         for i in (0..len).step_by(every) {
             match edges(i).filter(|e| e[0].is_finite() && e[1].is_finite()) {
                 Some([low, high]) => {
-                    let (x, low, high) = (self.x(i as f64 * dt), self.y(low), self.y(high));
+                    let (x, mut low, high) = (self.x(i as f64 * dt), self.y(low), self.y(high));
+                    low = low.max(high + 1.5); // a single point of support is seen, too
                     // Feet touch and leave at once: the edges jump, they do not slope.
                     if let Some(&[_, a, b]) = run.last() {
                         run.push([x, a, b]);

@@ -17,7 +17,7 @@ const FASTEST: f64 = 2.5;
 /// How much of a change of place counts, as the camera goes along.
 const TRAVEL: f64 = 0.25;
 /// Change between neighbouring frames that is aimed at, m.
-const CHANGE: f64 = 0.28;
+const CHANGE: f64 = 0.22;
 /// Chosen frames are at least so far apart, s.
 const APART: f64 = 0.03;
 

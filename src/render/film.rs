@@ -20,8 +20,8 @@ pub(super) const WIDTH: f64 = 1080.0;
 const MARGIN: f64 = 14.0;
 /// Between panels.
 const GAP: f64 = 7.0;
-/// Of the line with time and controller over each panel.
-const HEAD: f64 = 23.0;
+/// Of the line with time and controller over each panel, and of each further controller.
+const HEAD: [f64; 2] = [23.0, 17.5];
 /// Rows when the number of frames is not given.
 const MOST_ROWS: usize = 4;
 
@@ -67,21 +67,27 @@ pub(super) fn strip(trajectory: &Trajectory, options: &FilmOptions) -> Result<(G
     let width = across(columns).min(across(4));
     let height = (width / (2.0 * room.half) * room.top / 0.88).clamp(60.0, 420.0);
     let scene = Scene::new(trajectory);
+    let head = head(trajectory);
     let top = 40.0;
     let mut group = Group::new().add(title(trajectory));
     for (i, shot) in shots.iter().enumerate() {
         let x = MARGIN + (i % columns) as f64 * (width + GAP);
-        let y = top + (i / columns) as f64 * (height + HEAD + GAP);
+        let y = top + (i / columns) as f64 * (height + head + GAP);
         let camera = room.camera(track.at(shot.step), [width, height]);
         let panel = panel(&scene, trajectory, shot, &camera);
         group = group.add(panel.set("transform", format!("translate({} {})", px(x), px(y))));
     }
     let rows = shots.len().div_ceil(columns);
-    let below = top + rows as f64 * (height + HEAD + GAP) + 10.0;
+    let below = top + rows as f64 * (height + head + GAP) + 10.0;
     let weight = trajectory.models[options.character].total_mass() * 9.81;
     let scale = room.camera(0.0, [width, height]).scale;
     group = group.add(legend(below, weight, scale));
     Ok((group, [WIDTH, below + 26.0]))
+}
+
+/// Height of what stands over each panel, px.
+fn head(trajectory: &Trajectory) -> f64 {
+    HEAD[0] + HEAD[1] * (trajectory.models.len() - 1) as f64
 }
 
 /// What the recording is.
@@ -110,22 +116,23 @@ fn panel(scene: &Scene<'_>, trajectory: &Trajectory, shot: &Shot, camera: &super
         }
     }
     let size = [camera.width, camera.height];
+    let head = head(trajectory);
     let clock = format!("{time:.2} s");
     let free = camera.width - text_width(&clock, 11.5) - 16.0;
     let mut group = Group::new()
         .add(text([1.0, 15.5], 11.5, INK, "start", &clock).set("font-weight", "bold"))
         .add(window(
-            [0.0, HEAD],
+            [0.0, head],
             size,
             scene.still(shot.step, camera, &pushes),
         ))
         .add(scene.tags(shot.step, [camera.width, 3.5], 10.0, free));
     for (i, caption) in lines.iter().take(3).enumerate() {
         let caption = shortened(caption, 10.0, camera.width - 12.0);
-        let at = [6.0, HEAD + 14.0 + 12.5 * i as f64];
+        let at = [6.0, head + 14.0 + 12.5 * i as f64];
         group = group.add(text(at, 10.0, PUSH, "start", &caption).set("font-weight", "bold"));
     }
-    let frame = rectangle([0.0, HEAD], size, "none");
+    let frame = rectangle([0.0, head], size, "none");
     group.add(frame.set("stroke", FRAME).set("stroke-width", 1))
 }
 

@@ -5,7 +5,7 @@ use aplomb_framework::trajectory::Moment;
 use svg::node::element::{Circle, Group, Path};
 
 use super::camera::Camera;
-use super::style::{FORCE, INK, PUSH, SUPPORT, arrow, line, polygon, px, text};
+use super::style::{FORCE, INK, PUSH, SUPPORT, arrow, line, polygon, px, text, text_width};
 
 /// Length of the arrow for a force as large as the character's weight, m.
 pub(super) const WEIGHT_ARROW: f64 = 0.6;
@@ -55,7 +55,7 @@ pub(super) fn support_sign(from: [f64; 2], to: [f64; 2], size: f64) -> Group {
     let width = 0.8 * size;
     let middle = from[1] + width / 2.0;
     let (a, mut b) = ([from[0], middle], [to[0], middle]);
-    b[0] = b[0].max(a[0] + 1.0);
+    b[0] = b[0].max(a[0] + 0.6 * size);
     Group::new().add(line(a, b, SUPPORT, width))
 }
 
@@ -114,18 +114,19 @@ pub(super) fn push(at: [f64; 2], impulse: [f64; 2], opacity: f64, camera: &Camer
     let (ux, uy) = (impulse[0] / amount, -impulse[1] / amount);
     let tail = [tip[0] - ux * length, tip[1] - uy * length];
     let label = format!("{amount:.0} N·s");
-    let anchor = if ux > 0.3 {
-        "start"
-    } else if ux < -0.3 {
-        "end"
+    let font = 9.5 * size;
+    // Beyond the tail if the picture has room there, else above the shaft.
+    let room = text_width(&label, font) + 6.0;
+    let (x, y, anchor) = if ux > 0.5 && tail[0] > room {
+        (tail[0] - 4.0, tail[1] + 0.36 * font, "end")
+    } else if ux < -0.5 && tail[0] < camera.width - room {
+        (tail[0] + 4.0, tail[1] + 0.36 * font, "start")
     } else {
-        "middle"
+        let x = tail[0].clamp(room / 2.0, camera.width - room / 2.0);
+        (x, tail[1].min(tip[1]) - 0.6 * font, "middle")
     };
-    // Above the shaft, from its tail on, inside the picture.
-    let x = tail[0].clamp(3.0, camera.width - 3.0);
-    let above = tail[1].min(tail[1] + 0.3 * uy * length) - 5.5 * size;
     Group::new()
         .set("opacity", px(opacity))
         .add(arrow(tail, tip, PUSH, 3.4 * size))
-        .add(text([x, above], 9.5 * size, PUSH, anchor, &label).set("font-weight", "bold"))
+        .add(text([x, y], font, PUSH, anchor, &label).set("font-weight", "bold"))
 }

@@ -98,7 +98,7 @@ pub(super) fn plot(
     for (k, chart) in charts.iter().enumerate() {
         group = group.add(chart.axes(names[k], k + 1 == charts.len()));
     }
-    group = group.add(event_marks(&labels, top, bottom));
+    group = group.add(event_marks(&labels, &charts, top));
 
     let c = &charts[0];
     group = group
@@ -333,8 +333,9 @@ fn event_labels(trajectory: &Trajectory, character: usize, chart: &Chart) -> Vec
     labels
 }
 
-/// Upright lines through all charts; labels above, as far as there are lines of text for them.
-fn event_marks(labels: &[Label], top: f64, bottom: f64) -> Group {
+/// Upright lines through all charts; labels above the controller band, as far as there are lines of
+/// text for them.
+fn event_marks(labels: &[Label], charts: &[Chart], top: f64) -> Group {
     let mut group = Group::new();
     for label in labels {
         let shown = label.lane < LANES;
@@ -343,8 +344,17 @@ fn event_marks(labels: &[Label], top: f64, bottom: f64) -> Group {
         } else {
             0.0
         };
-        let mark = line([label.x, top - rise], [label.x, bottom], label.colour, 1.0);
-        group = group.add(mark.set("opacity", 0.75).set("stroke-dasharray", "4,2"));
+        group = group.add(line(
+            [label.x, top - rise],
+            [label.x, top],
+            label.colour,
+            1.0,
+        ));
+        for chart in charts {
+            let (from, to) = (chart.at[1], chart.at[1] + chart.size[1]);
+            let mark = line([label.x, from], [label.x, to], label.colour, 1.0);
+            group = group.add(mark.set("opacity", 0.75).set("stroke-dasharray", "4,2"));
+        }
         if shown {
             let (dx, anchor) = if label.left {
                 (-4.0, "end")

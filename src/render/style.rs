@@ -94,7 +94,7 @@ pub(super) fn text_width(content: &str, size: f64) -> f64 {
         'i' | 'j' | 'l' | 't' | 'f' | 'r' | ' ' | '.' | ',' | ':' | '\'' | '|' | '(' | ')' => 0.32,
         'm' | 'w' | 'M' | 'W' => 0.86,
         c if c.is_uppercase() => 0.68,
-        _ => 0.56,
+        _ => 0.53,
     };
     content.chars().map(em).sum::<f64>() * size
 }
