@@ -16,7 +16,9 @@ mod palette;
 mod plot;
 mod raster;
 mod scene;
+mod series;
 mod style;
+mod timeline;
 mod video;
 
 use std::path::Path;

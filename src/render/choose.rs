@@ -8,8 +8,8 @@ use super::scene::PUSH_TIME;
 
 /// Between samples of the motion, s; longer in long recordings.
 const SAMPLING: f64 = 0.005;
-/// Most samples.
-const SAMPLES: usize = 20_000;
+/// Fewest and most samples, as far as there are steps.
+const SAMPLES: [usize; 2] = [200, 20_000];
 /// Change of the picture that is counted when nothing moves, m/s.
 const REST: f64 = 0.08;
 /// Faster changes count as this fast, m/s.
@@ -38,7 +38,8 @@ struct Change {
 impl Change {
     fn new(trajectory: &Trajectory) -> Self {
         let dt = trajectory.header.dt;
-        let stride = ((SAMPLING / dt).round().max(1.0) as usize).max(trajectory.len() / SAMPLES);
+        let stride = ((SAMPLING / dt).round().max(1.0) as usize).max(trajectory.len() / SAMPLES[1]);
+        let stride = stride.min((trajectory.len() / SAMPLES[0]).max(1));
         let span = stride as f64 * dt;
         let mut sums = vec![0.0];
         let mut sum = 0.0;
@@ -121,7 +122,7 @@ pub(super) fn shots(trajectory: &Trajectory, count: usize) -> Vec<Shot> {
         .collect();
     events.sort_unstable();
     // A third remains for the motion between the events.
-    let most = 2 + 2 * count.saturating_sub(2) / 3;
+    let most = count.min(2 + 2 * count.saturating_sub(2) / 3);
     for &(_, step, _) in &events {
         if fixed.len() < most && fixed.iter().all(|f| f.abs_diff(step) > apart) {
             fixed.push(step);

@@ -26,7 +26,7 @@ const HEAD: [f64; 2] = [23.0, 17.5];
 const MOST_ROWS: usize = 4;
 
 /// What a film strip shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct FilmOptions {
     /// Number of frames; none leaves it to how much happens.
     pub frames: Option<usize>,
@@ -34,17 +34,6 @@ pub struct FilmOptions {
     pub columns: Option<usize>,
     /// The character that is followed.
     pub character: usize,
-}
-
-#[expect(clippy::derivable_impls, reason = "says what the defaults mean")]
-impl Default for FilmOptions {
-    fn default() -> Self {
-        Self {
-            frames: None,
-            columns: None,
-            character: 0,
-        }
-    }
 }
 
 /// The strip and its size.
@@ -109,9 +98,9 @@ fn panel(scene: &Scene<'_>, trajectory: &Trajectory, shot: &Shot, camera: &super
     for &event in &shot.events {
         match &trajectory.events[event].kind {
             EventKind::Push { .. } => pushes.push((event, 1.0)),
-            EventKind::Fell => lines.push("fell".to_owned()),
-            EventKind::Stood => lines.push("stood up".to_owned()),
-            EventKind::Command { text, .. } => lines.push(format!("“{text}”")),
+            EventKind::Fell => lines.push(("fell".to_owned(), PUSH)),
+            EventKind::Stood => lines.push(("stood up".to_owned(), FORCE)),
+            EventKind::Command { text, .. } => lines.push((format!("“{text}”"), INK)),
             _ => {}
         }
     }
@@ -127,10 +116,10 @@ fn panel(scene: &Scene<'_>, trajectory: &Trajectory, shot: &Shot, camera: &super
             scene.still(shot.step, camera, &pushes),
         ))
         .add(scene.tags(shot.step, [camera.width, 3.5], 10.0, free));
-    for (i, caption) in lines.iter().take(3).enumerate() {
+    for (i, (caption, colour)) in lines.iter().take(3).enumerate() {
         let caption = shortened(caption, 10.0, camera.width - 12.0);
         let at = [6.0, head + 14.0 + 12.5 * i as f64];
-        group = group.add(text(at, 10.0, PUSH, "start", &caption).set("font-weight", "bold"));
+        group = group.add(text(at, 10.0, colour, "start", &caption).set("font-weight", "bold"));
     }
     let frame = rectangle([0.0, head], size, "none");
     group.add(frame.set("stroke", FRAME).set("stroke-width", 1))

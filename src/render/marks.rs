@@ -89,7 +89,8 @@ pub(super) fn before(moment: &Moment<'_>, weight: f64, camera: &Camera) -> Group
         let at = camera.at([cop, 0.0]);
         let force = moment.force.map(|f| f64::from(f) / weight.max(1e-9));
         let amount = force[0].hypot(force[1]);
-        if amount.is_finite() && amount > 0.02 {
+        // Shorter arrows would be all head.
+        if amount.is_finite() && amount * WEIGHT_ARROW * camera.scale > 2.0 * size {
             let shown = WEIGHT_ARROW * amount.min(LONGEST) / amount * camera.scale;
             let tip = [at[0] + force[0] * shown, at[1] - force[1] * shown];
             group = group.add(arrow(at, tip, FORCE, 0.55 * size));
@@ -114,7 +115,7 @@ pub(super) fn push(at: [f64; 2], impulse: [f64; 2], opacity: f64, camera: &Camer
     let (ux, uy) = (impulse[0] / amount, -impulse[1] / amount);
     let tail = [tip[0] - ux * length, tip[1] - uy * length];
     let label = format!("{amount:.0} N·s");
-    let font = 9.5 * size;
+    let font = (9.5 * size).max(9.5);
     // Beyond the tail if the picture has room there, else above the shaft.
     let room = text_width(&label, font) + 6.0;
     let (x, y, anchor) = if ux > 0.5 && tail[0] > room {

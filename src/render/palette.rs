@@ -23,20 +23,25 @@ impl Palette {
     /// The most frequent colours of the pictures.
     pub(super) fn of(pictures: &[Pixmap]) -> Self {
         let mut counts = vec![0_u64; BINS];
-        let mut sums = vec![[0_u64; 3]; BINS];
+        // The colour that most of a bin's pixels have, by majority vote: flat areas keep theirs.
+        let mut favourites = vec![([0_u8; 3], 0_u64); BINS];
         for pixel in pictures.iter().flat_map(|p| p.pixels()) {
             let rgb = [pixel.red(), pixel.green(), pixel.blue()];
             let bin = bin(rgb[0], rgb[1], rgb[2]);
             counts[bin] += 1;
-            for k in 0..3 {
-                sums[bin][k] += u64::from(rgb[k]);
+            let (favourite, votes) = &mut favourites[bin];
+            if *votes == 0 {
+                (*favourite, *votes) = (rgb, 1);
+            } else if *favourite == rgb {
+                *votes += 1;
+            } else {
+                *votes -= 1;
             }
         }
         let mut bins: Vec<usize> = (0..BINS).filter(|b| counts[*b] > 0).collect();
         bins.sort_by_key(|b| (std::cmp::Reverse(counts[*b]), *b));
         bins.truncate(usize::from(UNCHANGED));
-        let mean = |b: usize| sums[b].map(|s| (s / counts[b]) as u8);
-        let mut colours: Vec<[u8; 3]> = bins.iter().map(|b| mean(*b)).collect();
+        let mut colours: Vec<[u8; 3]> = bins.iter().map(|b| favourites[*b].0).collect();
         if colours.is_empty() {
             colours.push([255; 3]);
         }

@@ -211,7 +211,7 @@ fn ground(camera: &Camera) -> Group {
                 0.9,
             ));
             let label = format!("{metres:.0} m").replace('-', "−");
-            let font = 9.0 * size;
+            let font = (9.0 * size).max(8.5);
             let room = super::style::text_width(&label, font) / 2.0 + 1.0;
             if whole && (room..=camera.width - room).contains(&x) {
                 group = group.add(text(

@@ -172,7 +172,7 @@ pub(super) fn arrow(from: [f64; 2], to: [f64; 2], colour: &str, width: f64) -> G
         return Group::new();
     }
     let (ux, uy) = (dx / length, dy / length);
-    let head = (4.2 * width).min(length);
+    let head = (4.2 * width).min(0.7 * length);
     let (half, thin) = (0.42 * head, width / 2.0);
     let at = |along: f64, across: f64| {
         [
