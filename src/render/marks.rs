@@ -103,15 +103,23 @@ pub(super) fn before(moment: &Moment<'_>, weight: f64, camera: &Camera) -> Group
     group
 }
 
-/// A push's arrow ends at the link it pushes; its impulse in N·s stands at its tail.
-pub(super) fn push(at: [f64; 2], impulse: [f64; 2], opacity: f64, camera: &Camera) -> Group {
+/// A push's arrow ends at the link it pushes; its impulse in N·s stands at its tail. Several at
+/// once, numbered by `place`, are drawn one below the other.
+pub(super) fn push(
+    at: [f64; 2],
+    impulse: [f64; 2],
+    opacity: f64,
+    place: usize,
+    camera: &Camera,
+) -> Group {
     let amount = impulse[0].hypot(impulse[1]);
     if !(amount.is_finite() && amount > 0.0 && at.iter().all(|x| x.is_finite())) {
         return Group::new();
     }
     let size = camera.mark_size();
     let length = (PUSH_ARROW[0] + PUSH_ARROW[1] * amount).min(0.75) * camera.scale;
-    let tip = camera.at(at);
+    let mut tip = camera.at(at);
+    tip[1] += 13.0 * size.max(1.0) * place as f64;
     let (ux, uy) = (impulse[0] / amount, -impulse[1] / amount);
     let tail = [tip[0] - ux * length, tip[1] - uy * length];
     let label = format!("{amount:.0} N·s");

@@ -70,7 +70,7 @@ impl<'a> Scene<'a> {
             let weight = model.total_mass() * GRAVITY;
             group = group.add(marks::before(&t.moment(step, who), weight, camera));
         }
-        for (event, opacity) in pushes {
+        for (place, (event, opacity)) in pushes.iter().enumerate() {
             let event = &t.events[*event];
             let EventKind::Push { link, impulse } = &event.kind else {
                 continue;
@@ -81,7 +81,7 @@ impl<'a> Scene<'a> {
                 .and_then(|m| m.link_index(link).ok());
             if let Some(link) = link {
                 let at = poses[event.character].links[link].com;
-                group = group.add(marks::push(at, *impulse, *opacity, camera));
+                group = group.add(marks::push(at, *impulse, *opacity, place, camera));
             }
         }
         group
