@@ -30,7 +30,7 @@ enum Entry {
     /// A controller file, beside the repertoire or shipped.
     File(String),
     /// A controller written in place.
-    Here(ControllerFile),
+    Here(Box<ControllerFile>),
 }
 
 /// Reads a repertoire by path, or a shipped one by its name (`humanoid` is
@@ -114,7 +114,7 @@ fn parts(
         return Err(source.invalid("controllers", "controllers", problem, accepted));
     }
     let part = |entry: &Entry| match entry {
-        Entry::Here(controller) => Ok((source.clone(), controller.clone())),
+        Entry::Here(controller) => Ok((source.clone(), ControllerFile::clone(controller))),
         Entry::File(name) => {
             let inner = find(source, name, folder, registry)?;
             let controller = inner.parse()?;
