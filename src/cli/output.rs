@@ -4,6 +4,7 @@
 use std::fmt;
 use std::io::{self, BufWriter, StdoutLock, Write};
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 use anyhow::{Result, bail, ensure};
 use aplomb::framework::Error;
@@ -94,12 +95,23 @@ pub(super) fn check_picture(path: &Path) -> Result<()> {
     let extension = path.extension().unwrap_or_default();
     let extension = extension.to_string_lossy().to_ascii_lowercase();
     if !PICTURES.contains(&extension.as_str()) {
-        let reason = format!(
-            "its name ends in '.{extension}'; accepted: .{}",
-            PICTURES.join(", .")
-        );
+        let found = match extension.as_str() {
+            "" => "its name has no extension".to_owned(),
+            other => format!("it is a .{other} file"),
+        };
+        let reason = format!("{found}; accepted: .{}", PICTURES.join(", ."));
         let path = path.to_owned();
         bail!(Error::Write { path, reason });
+    }
+    if extension == "mp4" {
+        let mut ffmpeg = Command::new("ffmpeg");
+        let ffmpeg = ffmpeg.arg("-version").stdin(Stdio::null());
+        let ran = ffmpeg.stdout(Stdio::null()).stderr(Stdio::null()).status();
+        ensure!(
+            ran.is_ok_and(|status| status.success()),
+            "{} would be encoded by the program ffmpeg, which is not installed or does not run; without it, draw a .gif",
+            path.display()
+        );
     }
     check_writable(path)
 }

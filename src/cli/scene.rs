@@ -12,7 +12,7 @@ use aplomb::framework::scenario::{Role, Scenario};
 use aplomb::framework::simulation::Simulation;
 use clap::Args;
 
-use super::values::Setting;
+use super::values::{Setting, whole};
 
 /// The longest recording in memory, bytes.
 const LARGEST_RECORDING: f64 = 1e9;
@@ -29,7 +29,7 @@ pub(super) struct SceneArgs {
     #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
     set: Vec<Setting>,
     /// Fixes everything random; the scenario's if left out
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
     seed: Option<u64>,
 }
 

@@ -3,6 +3,7 @@
 use std::io::{Result, Write};
 
 use aplomb::framework::scenario::Scenario;
+use aplomb::framework::sensors::Posture;
 use aplomb::framework::simulation::Simulation;
 use aplomb::framework::supervisor::Bid;
 use aplomb::framework::trajectory::{Event, EventKind};
@@ -106,19 +107,19 @@ pub(super) fn end(simulation: &Simulation, character: usize) -> String {
     } else {
         String::new()
     };
-    let posture = if outcome.standing {
-        "standing, for at least 1 s".to_owned()
-    } else {
-        let name = outcome.posture.name();
-        format!("{name}, not standing for 1 s")
+    let steady = match (outcome.standing, outcome.posture) {
+        (true, _) => ", steady for 1 s",
+        (false, Posture::Standing) => ", not steady",
+        (false, _) => "",
     };
+    let posture = outcome.posture.name();
     let active = if outcome.active.is_empty() {
         "nothing".to_owned()
     } else {
         outcome.active
     };
     format!(
-        "{:9.3} s  {who}{posture}; active: {active}; centre of mass ({:.3}, {:.3}) m at ({:.3}, {:.3}) m/s",
+        "{:9.3} s  {who}{posture}{steady}; active: {active}; centre of mass ({:.3}, {:.3}) m at ({:.3}, {:.3}) m/s",
         simulation.time(),
         outcome.com[0],
         outcome.com[1],

@@ -165,14 +165,19 @@ impl TrialsArgs {
     /// One trial alone: its timeline, or its JSON within the JSON of all trials.
     fn one(&self, plan: &Plan, index: u64, out: &mut dyn Write) -> Result<Verdict> {
         let begun = Instant::now();
-        let (scenario, mut simulation) = plan.stage(index)?;
+        let mut staged = plan.stage(index)?;
         if self.record.is_some() {
-            record(&mut simulation, &scenario)?;
+            record(&mut staged.simulation, &staged.scenario)?;
         }
-        let stop = AtomicBool::new(false);
-        let trial = plan.watch(index, &scenario, &mut simulation, &stop);
+        let never = AtomicBool::new(false);
+        let trial = plan.watch(&mut staged, &never);
         let trial: Trial = trial.ok_or_else(|| anyhow!("the trial was interrupted"))?;
         let wall_s = begun.elapsed().as_secs_f64();
+        let plan::Staged {
+            scenario,
+            simulation,
+            ..
+        } = staged;
         if let Some(recording) = simulation.recording() {
             write_recording(&recording, self.record.as_deref(), None)?;
         }

@@ -45,6 +45,16 @@ pub(super) struct Plan {
     pool: Vec<String>,
 }
 
+/// One trial before it runs.
+#[derive(Debug)]
+pub(super) struct Staged {
+    index: u64,
+    /// Disturbed.
+    pub(super) scenario: Scenario,
+    push: Option<(String, f64)>,
+    pub(super) simulation: Simulation,
+}
+
 /// What became of one trial.
 #[derive(Debug)]
 pub(super) struct Trial {
@@ -148,10 +158,15 @@ impl Plan {
     }
 
     /// Trial `index`, ready to run.
-    pub(super) fn stage(&self, index: u64) -> Result<(Scenario, Simulation)> {
-        let (scenario, _) = self.draw(index);
+    pub(super) fn stage(&self, index: u64) -> Result<Staged> {
+        let (scenario, push) = self.draw(index);
         let simulation = Simulation::new(&scenario, &self.registry)?;
-        Ok((scenario, simulation))
+        Ok(Staged {
+            index,
+            scenario,
+            push,
+            simulation,
+        })
     }
 
     /// Runs trial `index`; none if it was stopped.
@@ -159,20 +174,14 @@ impl Plan {
         if stop.load(Ordering::Relaxed) {
             return Ok(None);
         }
-        let (scenario, mut simulation) = self.stage(index)?;
-        Ok(self.watch(index, &scenario, &mut simulation, stop))
+        Ok(self.watch(&mut self.stage(index)?, stop))
     }
 
     /// Runs a trial that is ready; none if it was stopped.
-    pub(super) fn watch(
-        &self,
-        index: u64,
-        scenario: &Scenario,
-        simulation: &mut Simulation,
-        stop: &AtomicBool,
-    ) -> Option<Trial> {
-        let steps = (scenario.duration / self.dt()).round() as u64;
-        let (_, push) = self.draw(index);
+    pub(super) fn watch(&self, staged: &mut Staged, stop: &AtomicBool) -> Option<Trial> {
+        let simulation = &mut staged.simulation;
+        let push = staged.push.clone();
+        let steps = (staged.scenario.duration / self.dt()).round() as u64;
         let pushed = push.as_ref().map_or(0.0, |p| p.1);
         let mut watch = Watch::new(&self.model, pushed, self.disturbance.fallen);
         let mut seen = simulation.events().len();
@@ -189,7 +198,7 @@ impl Plan {
         let outcome = simulation.outcome(0);
         let of_first = |e: &&Event| e.character == 0 && !matches!(e.kind, EventKind::Push { .. });
         Some(Trial {
-            index,
+            index: staged.index,
             push,
             standing: outcome.standing,
             posture: outcome.posture.name(),
