@@ -176,7 +176,7 @@ fn a_repertoire_can_be_replaced() {
         .unwrap();
     let pool: Value = serde_json::from_slice(&pool.stdout).unwrap();
     assert_eq!(pool.as_array().unwrap().len(), 1);
-    called("run --repertoire limp.ron --duration 2")
+    called("run --repertoire limp.ron --duration 2 --push 0.1:torso:-100")
         .current_dir(folder.path())
         .assert()
         .success()

@@ -157,12 +157,12 @@ mod tests {
         let mut now = Sensors::new(&model, 9.81);
         for (i, links) in touches.iter().enumerate() {
             now.time = i as f64;
+            now.kinematics.links[model.head].com_velocity = [0.0, -1.0 - i as f64];
             for (link, contact) in model.links.iter().zip(&mut now.contacts) {
                 contact.touching = links.contains(&link.name.as_str());
             }
             let fell = (i == 0).then_some(&EventKind::Fell);
             watch.observe(&now, fell.into_iter());
-            now.kinematics.links[model.head].com_velocity = [0.0, -1.0 - i as f64];
         }
         watch.finish()[0]
     }

@@ -90,10 +90,14 @@ fn wilson(hits: u64, count: u64) -> [f64; 2] {
     let middle = p + Z * Z / (2.0 * n);
     let spread = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
     let scale = 1.0 + Z * Z / n;
-    [
-        ((middle - spread) / scale).max(0.0),
-        ((middle + spread) / scale).min(1.0),
-    ]
+    // Exact at the ends, where rounding would leave the share outside of its interval.
+    let low = if hits == 0 { 0.0 } else { middle - spread };
+    let high = if hits == count {
+        scale
+    } else {
+        middle + spread
+    };
+    [low / scale, high / scale]
 }
 
 impl FallsReport {
@@ -269,7 +273,7 @@ mod tests {
         let [low, high] = wilson(81, 263);
         assert!((low - 0.2553).abs() < 1e-4 && (high - 0.3662).abs() < 1e-4);
         assert_eq!(wilson(0, 0), [0.0, 1.0]);
-        assert!(wilson(0, 10)[0].abs() < 1e-12 && (wilson(10, 10)[1] - 1.0).abs() < 1e-12);
+        assert_eq!((wilson(0, 10)[0], wilson(10, 10)[1]), (0.0, 1.0));
     }
 
     #[test]
