@@ -126,21 +126,6 @@ fn com_height(model: &Model, pose: &[f64]) -> f64 {
     kinematics.com[1]
 }
 
-/// Rear and front end of the soles of the touching feet, whether flat or tilted, world x, m.
-pub fn soles(now: &Sensors) -> Option<[f64; 2]> {
-    let mut ends: Option<[f64; 2]> = None;
-    for (foot, contact) in now.model.feet.iter().zip(&now.feet) {
-        if contact.touching() {
-            for p in [foot.heel, foot.toe] {
-                let x = now.kinematics.point(foot.link, p)[0];
-                let [rear, front] = ends.unwrap_or([x, x]);
-                ends = Some([rear.min(x), front.max(x)]);
-            }
-        }
-    }
-    ends
-}
-
 impl Controller for Balance {
     fn contract(&self) -> &Contract {
         &self.contract
@@ -152,7 +137,7 @@ impl Controller for Balance {
     }
 
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
-        if let Some([rear, front]) = soles(now) {
+        if let Some([rear, front]) = now.base_of_support {
             self.reference.com = [
                 0.5 * (rear + front) + self.com_ahead,
                 now.ground + self.height,

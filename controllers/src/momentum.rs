@@ -254,7 +254,7 @@ impl Momentum {
             * (g.kl_height * (reference.com[1] - c[1])
                 + g.dl_height * (reference.com_velocity[1] - v[1]));
         let mut h = -g.dh * now.angular_momentum;
-        if let Some([rear, front]) = now.base_of_support {
+        if let Some([rear, front]) = now.contact_span() {
             let fy = (ly + m * now.gravity).max(0.2 * m * now.gravity);
             let height = now.com_height();
             let cop = c[0] - height * lx / fy;

@@ -59,7 +59,7 @@ pub(super) fn support_sign(from: [f64; 2], to: [f64; 2], size: f64) -> Group {
     Group::new().add(line(a, b, SUPPORT, width))
 }
 
-/// Marks behind the body: base of support and the centre of mass's plumb line.
+/// Marks behind the body: the base of support.
 pub(super) fn behind(moment: &Moment<'_>, camera: &Camera) -> Group {
     let size = 4.5 * camera.mark_size();
     let mut group = Group::new();
@@ -73,7 +73,8 @@ pub(super) fn behind(moment: &Moment<'_>, camera: &Camera) -> Group {
     group
 }
 
-/// Marks before the body: ground reaction force, centre of pressure, centre of mass.
+/// Marks before the body: ground reaction force, centre of pressure, centre of mass with its plumb
+/// line.
 /// `weight` in N.
 pub(super) fn before(moment: &Moment<'_>, weight: f64, camera: &Camera) -> Group {
     let size = 4.5 * camera.mark_size();

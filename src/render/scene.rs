@@ -5,6 +5,7 @@ use aplomb_framework::model::Shape;
 use aplomb_framework::trajectory::{EventKind, Trajectory};
 use svg::node::element::{Group, SVG};
 
+use super::GRAVITY;
 use super::body::{SKINS, corners, draw, pose};
 use super::camera::Camera;
 use super::marks;
@@ -16,8 +17,6 @@ use super::style::{
 pub(super) const PUSH_TIME: f64 = 0.1;
 /// s in which its arrow fades afterwards, so that it is seen in an animation.
 const FADING: f64 = 0.25;
-/// m/s², for the length of force arrows.
-const GRAVITY: f64 = 9.81;
 
 /// Draws instants of one recording.
 #[derive(Debug)]

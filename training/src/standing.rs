@@ -83,7 +83,12 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
             break;
         }
         if now.time < push.at + RECOVERED {
-            let apart = now.state.angles().iter().zip(&before).map(|(a, b)| (a - b).powi(2));
+            let apart = now
+                .state
+                .angles()
+                .iter()
+                .zip(&before)
+                .map(|(a, b)| (a - b).powi(2));
             slouch = (apart.sum::<f64>() / before.len() as f64).sqrt();
         } else if run.outcome(0).standing {
             break;
@@ -108,9 +113,7 @@ pub fn cost(text: &str, registry: &Registry, pushes: &[Push]) -> Result<f64> {
     for push in pushes {
         let taken = take(text, registry, *push)?;
         sum += if taken.stood {
-            0.03 * taken.after / 7.0
-                + 0.002 * taken.motion.min(20.0)
-                + 0.3 * taken.slouch.min(1.0)
+            0.03 * taken.after / 7.0 + 0.002 * taken.motion.min(20.0) + 0.3 * taken.slouch.min(1.0)
         } else {
             1.0 - 0.3 * (taken.after / 7.0).min(1.0)
         };
