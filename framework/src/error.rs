@@ -51,7 +51,11 @@ pub enum Error {
         accepted: String,
     },
     /// A name that nothing answers to.
-    #[error("unknown {kind} '{name}'{}; known: {}", suggestion(nearest), listed(known))]
+    #[error(
+        "unknown {kind} '{name}'{}; known: {}",
+        suggestion(nearest),
+        listed(known)
+    )]
     Unknown {
         /// What was looked up: `joint`, `link`, `command`, `controller kind`.
         kind: &'static str,

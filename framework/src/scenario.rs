@@ -276,11 +276,20 @@ impl Scenario {
             if value >= low && value <= high {
                 Ok(())
             } else {
+                let section = field.split(['.', '[']).next().unwrap_or(field);
                 let name = field.rsplit('.').next().unwrap_or(field);
                 let key = format!("{name}:");
-                let found = source.text.contains(&key);
-                let needle = if found { &key } else { name };
-                Err(source.invalid(needle, field, value, format!("{low} to {high}")))
+                let needle = if source.text.contains(&key) {
+                    &key
+                } else {
+                    name
+                };
+                Err(Error::Invalid {
+                    place: source.place_within(&format!("{section}:"), needle),
+                    field: field.to_owned(),
+                    problem: value.to_string(),
+                    accepted: format!("{low} to {high}"),
+                })
             }
         };
         check("duration", self.duration, 1e-3, LONGEST)?;
