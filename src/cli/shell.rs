@@ -100,6 +100,9 @@ impl Shell {
             }
             out.flush()?;
             let Some(line) = next_line(input)? else {
+                if person {
+                    writeln!(out)?;
+                }
                 return Ok(bad);
             };
             count += 1;
