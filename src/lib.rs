@@ -1,3 +1,36 @@
-//! Aplomb: composable controllers for physically simulated characters.
+//! Aplomb: composable controllers for physically simulated planar characters. They balance, step,
+//! fall, roll, rise and anticipate.
+//!
+//! This is the facade: [`framework`] (characters, world, sensors, contracts, supervisor),
+//! [`controllers`] (the motor skills), [`scenarios`] (the shipped ones) and [`mod@render`]
+//! (pictures of recorded runs). SI units and radians everywhere; frames and signs are those of
+//! [`framework`].
+//!
+//! # The pipeline
+//!
+//! ```
+//! use aplomb::framework::scenario::Scenario;
+//! use aplomb::framework::simulation::Simulation;
+//!
+//! // A character with its repertoire: scenario → simulation.
+//! let scenario = Scenario::standing("humanoid", 3.0);
+//! let registry = aplomb::controllers::registry();
+//! let mut simulation = Simulation::new(&scenario, &registry)?;
+//!
+//! // A light push on the chest, from behind, after 0.5 s.
+//! simulation.run(0.5);
+//! simulation.push(0, "torso", 10.0)?;
+//! simulation.run(2.5);
+//!
+//! // What became of it.
+//! let outcome = simulation.outcome(0);
+//! assert!(outcome.standing, "{outcome:?}");
+//! assert_eq!(outcome.active, "balance");
+//! # Ok::<(), aplomb::framework::Error>(())
+//! ```
+
+pub use aplomb_controllers as controllers;
+pub use aplomb_framework as framework;
 
 pub mod render;
+pub mod scenarios;

@@ -51,7 +51,11 @@ pub enum Error {
         accepted: String,
     },
     /// A name that nothing answers to.
-    #[error("unknown {kind} '{name}'{}; known: {}", suggestion(nearest), known.join(", "))]
+    #[error(
+        "unknown {kind} '{name}'{}; known: {}",
+        suggestion(nearest),
+        listed(known)
+    )]
     Unknown {
         /// What was looked up: `joint`, `link`, `command`, `controller kind`.
         kind: &'static str,
@@ -104,13 +108,21 @@ impl Error {
                 },
                 accepted: match &self {
                     Self::Unknown { nearest, known, .. } => {
-                        format!("{}{}", known.join(", "), suggestion(nearest))
+                        format!("{}{}", listed(known), suggestion(nearest))
                     }
                     _ => "name key=value …".to_owned(),
                 },
             },
             other => other,
         }
+    }
+}
+
+fn listed(known: &[String]) -> String {
+    if known.is_empty() {
+        "none".to_owned()
+    } else {
+        known.join(", ")
     }
 }
 

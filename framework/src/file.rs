@@ -82,6 +82,19 @@ impl Source {
         }
     }
 
+    /// [`Self::place`] of `needle` after the first occurrence of `section`, if it occurs there.
+    #[must_use]
+    pub fn place_within(&self, section: &str, needle: &str) -> String {
+        let start = self.text.find(section).unwrap_or(0);
+        match self.text[start..].find(needle) {
+            Some(at) => {
+                let line = 1 + self.text[..start + at].matches('\n').count();
+                format!("{}:{line}", self.origin)
+            }
+            None => self.place(needle),
+        }
+    }
+
     /// An [`Error::Invalid`] at the first occurrence of `needle`.
     pub fn invalid(
         &self,

@@ -98,7 +98,14 @@ impl Registry {
         file: &ControllerFile,
         model: &Arc<Model>,
     ) -> Result<Box<dyn Controller>> {
-        let place = source.place(&format!("\"{}\"", file.contract.name));
+        let quoted = format!("\"{}\"", file.contract.name);
+        let named = format!("name: {quoted}");
+        let needle = if source.text.contains(&named) {
+            named
+        } else {
+            quoted
+        };
+        let place = source.place(&needle);
         let build = self.kinds.get(file.kind.as_str()).ok_or_else(|| {
             Error::unknown("controller kind", &file.kind, self.kinds.keys().copied()).at(&place)
         })?;

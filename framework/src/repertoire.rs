@@ -30,7 +30,7 @@ enum Entry {
     /// A controller file, beside the repertoire or shipped.
     File(String),
     /// A controller written in place.
-    Here(ControllerFile),
+    Here(Box<ControllerFile>),
 }
 
 /// Reads a repertoire by path, or a shipped one by its name (`humanoid` is
@@ -39,11 +39,8 @@ enum Entry {
 /// # Errors
 /// Unreadable or invalid files, named with line and field; a pool without a valid fallback.
 pub fn load(name_or_path: &str, registry: &Registry, model: &Arc<Model>) -> Result<Supervisor> {
-    if let Some(source) = registry.file(&format!("repertoires/{name_or_path}.ron")) {
-        return build(&source, None, registry, model);
-    }
-    let path = Path::new(name_or_path);
-    build(&Source::read(path)?, path.parent(), registry, model)
+    let (source, folder) = open(name_or_path, registry)?;
+    build(&source, folder, registry, model)
 }
 
 /// Builds the supervisor of a repertoire in text. Its files are looked for in `folder`, then among
@@ -58,21 +55,9 @@ pub fn build(
     model: &Arc<Model>,
 ) -> Result<Supervisor> {
     let file: RepertoireFile = source.parse()?;
-    if file.controllers.len() > MOST_CONTROLLERS {
-        let problem = format!("a list of {}", file.controllers.len());
-        let accepted = format!("at most {MOST_CONTROLLERS} controllers");
-        return Err(source.invalid("controllers", "controllers", problem, accepted));
-    }
     let mut pool = Vec::with_capacity(file.controllers.len());
-    for entry in &file.controllers {
-        pool.push(match entry {
-            Entry::Here(c) => registry.build(source, c, model)?,
-            Entry::File(name) => {
-                let inner = find(source, name, folder, registry)?;
-                let c: ControllerFile = inner.parse()?;
-                registry.build(&inner, &c, model)?
-            }
-        });
+    for (place, controller) in parts(source, &file, folder, registry)? {
+        pool.push(registry.build(&place, &controller, model)?);
     }
     Supervisor::new(&file.name, pool, &file.fallback).map_err(|e| match e {
         Error::Invalid {
@@ -91,6 +76,52 @@ pub fn build(
         }
         other => other,
     })
+}
+
+/// The controller files of a repertoire, in its order, as they stand: not built for any character.
+///
+/// # Errors
+/// As [`load`], apart from what only building shows.
+pub fn read(name_or_path: &str, registry: &Registry) -> Result<Vec<ControllerFile>> {
+    let (source, folder) = open(name_or_path, registry)?;
+    let file: RepertoireFile = source.parse()?;
+    let parts = parts(&source, &file, folder, registry)?;
+    Ok(parts
+        .into_iter()
+        .map(|(_, controller)| controller)
+        .collect())
+}
+
+/// The repertoire's text, and the folder beside it if it is a file.
+fn open<'a>(name_or_path: &'a str, registry: &Registry) -> Result<(Source, Option<&'a Path>)> {
+    if let Some(source) = registry.file(&format!("repertoires/{name_or_path}.ron")) {
+        return Ok((source, None));
+    }
+    let path = Path::new(name_or_path);
+    Ok((Source::read(path)?, path.parent()))
+}
+
+/// Every controller file with the text that it stands in.
+fn parts(
+    source: &Source,
+    file: &RepertoireFile,
+    folder: Option<&Path>,
+    registry: &Registry,
+) -> Result<Vec<(Source, ControllerFile)>> {
+    if file.controllers.len() > MOST_CONTROLLERS {
+        let problem = format!("a list of {}", file.controllers.len());
+        let accepted = format!("at most {MOST_CONTROLLERS} controllers");
+        return Err(source.invalid("controllers", "controllers", problem, accepted));
+    }
+    let part = |entry: &Entry| match entry {
+        Entry::Here(controller) => Ok((source.clone(), ControllerFile::clone(controller))),
+        Entry::File(name) => {
+            let inner = find(source, name, folder, registry)?;
+            let controller = inner.parse()?;
+            Ok((inner, controller))
+        }
+    };
+    file.controllers.iter().map(part).collect()
 }
 
 fn find(source: &Source, name: &str, folder: Option<&Path>, registry: &Registry) -> Result<Source> {

@@ -276,8 +276,20 @@ impl Scenario {
             if value >= low && value <= high {
                 Ok(())
             } else {
-                let needle = field.rsplit('.').next().unwrap_or(field);
-                Err(source.invalid(needle, field, value, format!("{low} to {high}")))
+                let section = field.split(['.', '[']).next().unwrap_or(field);
+                let name = field.rsplit('.').next().unwrap_or(field);
+                let key = format!("{name}:");
+                let needle = if source.text.contains(&key) {
+                    &key
+                } else {
+                    name
+                };
+                Err(Error::Invalid {
+                    place: source.place_within(&format!("{section}:"), needle),
+                    field: field.to_owned(),
+                    problem: value.to_string(),
+                    accepted: format!("{low} to {high}"),
+                })
             }
         };
         check("duration", self.duration, 1e-3, LONGEST)?;
@@ -322,15 +334,22 @@ impl Scenario {
         for prop in &self.props {
             validate_prop(source, prop, &check)?;
         }
-        let who = |character: usize| {
+        let who = |field: &str, character: usize| {
             check(
-                "character",
+                &format!("{field}.character"),
                 character as f64,
                 0.0,
                 self.characters.len() as f64 - 1.0,
             )
         };
-        for event in &self.events {
+        let number = |number: &Number| {
+            self.number(number).map_err(|e| match number {
+                Number::Parameter(name, _) => e.at(&source.place(&format!("{name}\""))),
+                Number::Value(_) => e,
+            })
+        };
+        for (i, event) in self.events.iter().enumerate() {
+            let field = |name: &str| format!("events[{i}].{name}");
             match event {
                 Happening::Push {
                     at,
@@ -339,28 +358,29 @@ impl Scenario {
                     character,
                     ..
                 } => {
-                    check("at", self.number(at)?, 0.0, LONGEST)?;
-                    check("impulse", self.number(impulse)?, -1e5, 1e5)?;
-                    check("over", *over, 1e-4, 60.0)?;
-                    who(*character)?;
+                    check(&field("at"), number(at)?, 0.0, LONGEST)?;
+                    check(&field("impulse"), number(impulse)?, -1e5, 1e5)?;
+                    check(&field("over"), *over, 1e-4, 60.0)?;
+                    who(&format!("events[{i}]"), *character)?;
                 }
                 Happening::Command { at, character, .. } => {
-                    check("at", self.number(at)?, 0.0, LONGEST)?;
-                    who(*character)?;
+                    check(&field("at"), number(at)?, 0.0, LONGEST)?;
+                    who(&format!("events[{i}]"), *character)?;
                 }
             }
         }
-        for expectation in &self.expect {
+        for (i, expectation) in self.expect.iter().enumerate() {
+            let field = format!("expect[{i}]");
             match expectation {
-                Expectation::Standing { character } => who(*character)?,
+                Expectation::Standing { character } => who(&field, *character)?,
                 Expectation::Active {
                     before, character, ..
                 }
                 | Expectation::Posture {
                     before, character, ..
                 } => {
-                    check("before", *before, 0.0, LONGEST)?;
-                    who(*character)?;
+                    check(&format!("{field}.before"), *before, 0.0, LONGEST)?;
+                    who(&field, *character)?;
                 }
             }
         }

@@ -129,6 +129,9 @@ impl Simulation {
             world.add_prop(prop);
         }
         world.detect_contacts();
+        for character in 0..actors.len() {
+            world.sense(character);
+        }
         let mut simulation = Self {
             world,
             actors,

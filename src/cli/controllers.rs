@@ -1,0 +1,161 @@
+//! `aplomb controllers`: the pool of a repertoire, with every controller's contract.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+
+use anyhow::Result;
+use aplomb::framework::command::Answer;
+use aplomb::framework::condition::Condition;
+use aplomb::framework::contract::Contract;
+use aplomb::framework::repertoire;
+use aplomb::framework::simulation::Simulation;
+use clap::Args;
+use serde::Serialize;
+
+use super::Verdict;
+use super::scene::CastArgs;
+
+/// List the controllers of a repertoire
+///
+/// Lists the controllers of a character's repertoire: name, kind, weight (0: only on command), the
+/// commands that it answers to, where it can take over (pre-condition), where it has succeeded
+/// (post-condition), what it expects while it is active, and whether its pre-condition is learned.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  aplomb controllers
+  aplomb controllers --repertoire mine.ron --json")]
+pub(super) struct ControllersArgs {
+    #[command(flatten)]
+    cast: CastArgs,
+    /// Prints one JSON value instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Row {
+    name: String,
+    kind: Option<String>,
+    weight: u32,
+    learned: bool,
+    commands: Vec<Answer>,
+    precondition: String,
+    postcondition: String,
+    expected: String,
+    /// s for which the post-condition must hold.
+    hold: f64,
+    /// s after which it has failed; none without limit.
+    patience: Option<f64>,
+}
+
+impl ControllersArgs {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        let registry = aplomb::controllers::registry();
+        let scenario = self.cast.apply(None, 1.0, &registry)?;
+        let simulation = Simulation::new(&scenario, &registry)?;
+        let model = simulation.world().characters()[0].body.model();
+        let role = &scenario.characters[0];
+        let repertoire = role.repertoire.as_deref().unwrap_or(&model.name);
+        let files = repertoire::read(repertoire, &registry)?;
+        let kinds: BTreeMap<_, _> = files
+            .into_iter()
+            .map(|f| (f.contract.name, f.kind))
+            .collect();
+        let pool = simulation.actors()[0].mind.controllers();
+        let rows: Vec<Row> = pool.map(|c| row(c.contract(), &kinds)).collect();
+        if self.json {
+            serde_json::to_writer(&mut *out, &rows)?;
+            writeln!(out)?;
+        } else {
+            print(out, &rows)?;
+        }
+        Ok(Verdict::Done)
+    }
+}
+
+fn row(contract: &Contract, kinds: &BTreeMap<String, String>) -> Row {
+    Row {
+        name: contract.name.clone(),
+        kind: kinds.get(&contract.name).cloned(),
+        weight: contract.weight,
+        learned: learned(&contract.precondition),
+        commands: contract.commands.clone(),
+        precondition: contract.precondition.to_string(),
+        postcondition: contract.postcondition.to_string(),
+        expected: contract.expected.to_string(),
+        hold: contract.hold,
+        patience: Some(contract.patience).filter(|p| p.is_finite()),
+    }
+}
+
+/// Whether a condition has a clause that nobody wrote by hand.
+fn learned(condition: &Condition) -> bool {
+    match condition {
+        Condition::Always | Condition::Never | Condition::Within { .. } | Condition::Posture(_) => {
+            false
+        }
+        Condition::All(list) | Condition::Any(list) => list.iter().any(learned),
+        Condition::Not(inner) => learned(inner),
+        _ => true,
+    }
+}
+
+fn print(out: &mut dyn Write, rows: &[Row]) -> std::io::Result<()> {
+    let width = |of: fn(&Row) -> &str| rows.iter().map(|r| of(r).chars().count()).max();
+    let kind = |r: &Row| r.kind.as_deref().map_or("-", |k| k).to_owned();
+    let names = width(|r| &r.name).unwrap_or(0).max(10);
+    let kinds = width(|r| r.kind.as_deref().unwrap_or("-"))
+        .unwrap_or(0)
+        .max(4);
+    writeln!(
+        out,
+        "{:names$}  {:kinds$}  weight  pre-condition is",
+        "controller", "kind"
+    )?;
+    for row in rows {
+        let origin = if row.learned { "learned" } else { "manual" };
+        let (name, kind, weight) = (&row.name, kind(row), row.weight);
+        writeln!(out, "{name:names$}  {kind:kinds$}  {weight:6}  {origin}")?;
+    }
+    for row in rows {
+        writeln!(out, "\n{}", row.name)?;
+        writeln!(out, "  takes over where  {}", row.precondition)?;
+        let hold = match row.hold {
+            0.0 => String::new(),
+            hold => format!(", for {hold} s"),
+        };
+        writeln!(out, "  has succeeded at  {}{hold}", row.postcondition)?;
+        writeln!(out, "  expects           {}", row.expected)?;
+        if let Some(patience) = row.patience {
+            writeln!(out, "  gives up after    {patience} s")?;
+        }
+        let commands: Vec<String> = row.commands.iter().map(usage).collect();
+        writeln!(out, "  answers to        {}", commands.join("; "))?;
+    }
+    Ok(())
+}
+
+/// A command with its parameters: `step_forward length=0.1..0.6 (0.3)`.
+pub(super) fn usage(answer: &Answer) -> String {
+    let mut text = answer.name.clone();
+    for p in &answer.parameters {
+        let (name, min, max, default) = (&p.name, p.min, p.max, p.default);
+        text.push_str(&format!(" {name}={min}..{max} ({default})"));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn conditions_written_by_hand_are_not_learned() {
+        let hand = Condition::All(vec![
+            Condition::Not(Box::new(Condition::Never)),
+            Condition::Any(vec![Condition::Always]),
+        ]);
+        assert!(!learned(&hand));
+    }
+}

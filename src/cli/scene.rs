@@ -1,0 +1,126 @@
+//! The arguments that say who takes part and where, shared by the subcommands that simulate.
+//!
+//! arguments → [`Scenario`] → [`Simulation`].
+
+use std::path::Path;
+
+use anyhow::{Context, Result, bail, ensure};
+use aplomb::framework::error::Error;
+use aplomb::framework::model::Model;
+use aplomb::framework::registry::Registry;
+use aplomb::framework::scenario::{Role, Scenario};
+use aplomb::framework::simulation::Simulation;
+use clap::Args;
+
+use super::values::{Setting, whole};
+
+/// The longest recording in memory, bytes.
+const LARGEST_RECORDING: f64 = 1e9;
+
+/// Who takes part, where, with which parameters.
+#[derive(Debug, Args)]
+pub(super) struct SceneArgs {
+    /// A shipped scenario (push, standing, story) or a scenario file; the humanoid standing on
+    /// level ground if left out
+    scenario: Option<String>,
+    #[command(flatten)]
+    cast: CastArgs,
+    /// Sets a parameter of the scenario, or friction, gravity (m/s²) or duration (s); repeatable
+    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    set: Vec<Setting>,
+    /// Fixes everything random; the scenario's if left out
+    #[arg(long, value_name = "N", value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
+    seed: Option<u64>,
+}
+
+/// Who takes part.
+#[derive(Debug, Args)]
+pub(super) struct CastArgs {
+    /// The first character: built-in name or character file
+    #[arg(long, value_name = "NAME|FILE")]
+    character: Option<String>,
+    /// The first character's repertoire: shipped name or repertoire file; the character's own if
+    /// left out
+    #[arg(long, value_name = "NAME|FILE")]
+    repertoire: Option<String>,
+}
+
+impl SceneArgs {
+    /// The scenario that was asked for, `otherwise` s long if none was.
+    pub(super) fn load(&self, otherwise: f64, registry: &Registry) -> Result<Scenario> {
+        let name = self.scenario.as_deref();
+        let mut scenario = self.cast.apply(name, otherwise, registry)?;
+        for Setting { key, value } in &self.set {
+            let option = || format!("--set {key}={value}");
+            scenario.set(key, *value).with_context(option)?;
+        }
+        if let Some(seed) = self.seed {
+            scenario.seed = seed;
+        }
+        Ok(scenario)
+    }
+}
+
+impl CastArgs {
+    /// A scenario by name or path, or someone standing for `otherwise` s, with this cast.
+    pub(super) fn apply(
+        &self,
+        scenario: Option<&str>,
+        otherwise: f64,
+        registry: &Registry,
+    ) -> Result<Scenario> {
+        let mut scenario = match scenario {
+            Some(name) => aplomb::scenarios::load(name)?,
+            None => Scenario::standing("humanoid", otherwise),
+        };
+        let first = &mut scenario.characters[0];
+        if let Some(character) = &self.character {
+            first.character.clone_from(character);
+            first.repertoire = None;
+        }
+        if self.repertoire.is_some() {
+            first.repertoire.clone_from(&self.repertoire);
+        }
+        for role in &scenario.characters {
+            check_repertoire(role, registry)?;
+        }
+        Ok(scenario)
+    }
+}
+
+/// Says what is known when a repertoire is neither shipped nor a file.
+fn check_repertoire(role: &Role, registry: &Registry) -> Result<()> {
+    let model = Model::load(&role.character)?;
+    let name = role.repertoire.as_deref().unwrap_or(&model.name);
+    let shipped = registry.file(&format!("repertoires/{name}.ron"));
+    if shipped.is_some() || Path::new(name).exists() {
+        return Ok(());
+    }
+    let known = registry.files().filter_map(|f| {
+        let file = f.strip_prefix("repertoires/")?;
+        file.strip_suffix(".ron")
+    });
+    let unknown = Error::unknown("repertoire", name, known);
+    if role.repertoire.is_none() {
+        bail!("character '{name}' has no repertoire of its own, name one: {unknown}");
+    }
+    bail!(unknown)
+}
+
+/// Begins to record, unless the whole run would not fit into memory.
+pub(super) fn record(simulation: &mut Simulation, scenario: &Scenario) -> Result<()> {
+    let numbers = |dof: usize| (2 * dof + 11) as f64;
+    let characters = simulation.world().characters().iter();
+    let width: f64 = characters.map(|c| numbers(c.body.model().dof())).sum();
+    let props = 3.0 * scenario.props.len() as f64;
+    let bytes = 4.0 * (width + props) * scenario.duration / scenario.settings.dt;
+    ensure!(
+        bytes <= LARGEST_RECORDING,
+        "a recording of {} s would take {:.1} GB; accepted: at most {} GB, so shorten the run",
+        scenario.duration,
+        bytes / 1e9,
+        LARGEST_RECORDING / 1e9,
+    );
+    simulation.record(&scenario.name, scenario.seed);
+    Ok(())
+}

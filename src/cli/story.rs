@@ -1,0 +1,49 @@
+//! `aplomb` without a subcommand: the story, told, drawn and recorded.
+
+use std::io::Write;
+use std::path::Path;
+
+use anyhow::Result;
+use aplomb::framework::simulation::Simulation;
+
+use super::output::{check_picture, check_writable};
+use super::{Verdict, progress, timeline};
+
+/// Where the story is drawn.
+const PICTURE: &str = "out/story.svg";
+/// Where it is recorded.
+const RECORDING: &str = "out/story.trajectory";
+
+/// Runs the shipped story.
+pub(super) fn tell(out: &mut dyn Write) -> Result<Verdict> {
+    let scenario = aplomb::scenarios::load("story")?;
+    let (picture, recording) = (Path::new(PICTURE), Path::new(RECORDING));
+    check_picture(picture)?;
+    check_writable(recording)?;
+    writeln!(
+        out,
+        "The humanoid stands, is pushed hard from the front, falls and rests."
+    )?;
+    out.flush()?;
+    let mut simulation = Simulation::new(&scenario, &aplomb::controllers::registry())?;
+    simulation.record(&scenario.name, scenario.seed);
+    progress::run(&mut simulation, scenario.duration);
+    timeline::print(out, &simulation, &scenario, false)?;
+    if let Some(trajectory) = simulation.recording() {
+        trajectory.write(recording)?;
+        aplomb::render::write(&trajectory, picture, true)?;
+    }
+    writeln!(out, "\nDrawn in {PICTURE}, recorded in {RECORDING}.")?;
+    writeln!(
+        out,
+        "As an animation: aplomb render {RECORDING} -o story.gif"
+    )?;
+    writeln!(
+        out,
+        "To try things yourself: aplomb shell, aplomb run --help"
+    )?;
+    Ok(match simulation.disappointment(&scenario.expect) {
+        None => Verdict::Done,
+        Some(_) => Verdict::Unmet,
+    })
+}

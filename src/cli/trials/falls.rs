@@ -1,0 +1,201 @@
+//! How a character falls: which way, what touches first, how fast its head is when it touches.
+//!
+//! sensors and events of every step → [`Fall`]s.
+
+use aplomb::framework::model::Model;
+use aplomb::framework::sensors::Sensors;
+use aplomb::framework::trajectory::EventKind;
+
+/// m/s; a slower centre of mass falls the way it was pushed.
+const SLOW: f64 = 0.05;
+
+/// Parts of the body that a fall may land on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Part {
+    Foot,
+    Knee,
+    Hand,
+    Head,
+    /// The root link and the thighs.
+    Seat,
+    Trunk,
+    Other,
+}
+
+const PARTS: usize = 7;
+
+/// One fall, from the first touch of anything but feet until the character stands again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Fall {
+    /// Whether it went forward.
+    pub(super) forward: bool,
+    /// When each part first touched, s.
+    touched: [Option<f64>; PARTS],
+    /// Speed of the head just before it touched, m/s.
+    pub(super) head_speed: Option<f64>,
+}
+
+impl Fall {
+    fn when(&self, part: Part) -> f64 {
+        self.touched[part as usize].unwrap_or(f64::INFINITY)
+    }
+
+    /// Forward: the hands touched before head and trunk, or neither of these did. Backward: hands
+    /// or seat touched before the head, or the head did not.
+    pub(super) fn broken_well(&self) -> bool {
+        let hands = self.when(Part::Hand);
+        let (good, bad) = if self.forward {
+            (hands, self.when(Part::Head).min(self.when(Part::Trunk)))
+        } else {
+            (hands.min(self.when(Part::Seat)), self.when(Part::Head))
+        };
+        bad.is_infinite() || good < bad
+    }
+}
+
+/// Which part of the body a link is.
+fn part(model: &Model, link: usize) -> Part {
+    let parent = |l: usize| model.links[l].joint.as_ref().map(|j| j.parent);
+    let thigh = (0..model.links.len()).any(|l| model.is_shank(l) && parent(l) == Some(link));
+    if model.is_foot(link) {
+        Part::Foot
+    } else if model.is_shank(link) {
+        Part::Knee
+    } else if model.is_hand(link) {
+        Part::Hand
+    } else if link == model.head {
+        Part::Head
+    } else if link == 0 || thigh {
+        Part::Seat
+    } else if link == model.trunk {
+        Part::Trunk
+    } else {
+        Part::Other
+    }
+}
+
+/// Watches one trial.
+#[derive(Debug)]
+pub(super) struct Watch {
+    parts: Vec<Part>,
+    pushed: f64,
+    /// Whether a touch of the ground counts as a fall: not before a heap has stood up.
+    upright: bool,
+    /// m/s, in the step before.
+    head_speed: f64,
+    falling: Option<Fall>,
+    falls: Vec<Fall>,
+}
+
+impl Watch {
+    /// Of a character that is pushed with an impulse (N·s) or begins on the floor.
+    pub(super) fn new(model: &Model, pushed: f64, fallen: bool) -> Self {
+        Self {
+            parts: (0..model.links.len()).map(|l| part(model, l)).collect(),
+            pushed,
+            upright: !fallen,
+            head_speed: 0.0,
+            falling: None,
+            falls: Vec::new(),
+        }
+    }
+
+    /// Takes in a step: what was sensed, and what happened to the character.
+    pub(super) fn observe<'a>(
+        &mut self,
+        now: &Sensors,
+        events: impl Iterator<Item = &'a EventKind>,
+    ) {
+        for event in events {
+            match event {
+                EventKind::Fell if self.upright => {
+                    let v = now.com_velocity[0];
+                    let way = if v.abs() < SLOW { self.pushed } else { v };
+                    self.upright = false;
+                    self.falling = Some(Fall {
+                        forward: way > 0.0,
+                        touched: [None; PARTS],
+                        head_speed: None,
+                    });
+                }
+                EventKind::Stood => {
+                    self.upright = true;
+                    self.falls.extend(self.falling.take());
+                }
+                _ => {}
+            }
+        }
+        if let Some(fall) = &mut self.falling {
+            for (part, contact) in self.parts.iter().zip(&now.contacts) {
+                if contact.touching {
+                    fall.touched[*part as usize].get_or_insert(now.time);
+                    if *part == Part::Head {
+                        fall.head_speed.get_or_insert(self.head_speed);
+                    }
+                }
+            }
+        }
+        let v = now.kinematics.links[now.model.head].com_velocity;
+        self.head_speed = v[0].hypot(v[1]);
+    }
+
+    /// All falls, the last one possibly not over.
+    pub(super) fn finish(mut self) -> Vec<Fall> {
+        self.falls.extend(self.falling);
+        self.falls
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Steps with what touches in each.
+    fn fall(forward: bool, touches: &[&[&str]]) -> Fall {
+        let model = Model::load("humanoid").unwrap();
+        let mut watch = Watch::new(&model, if forward { 1.0 } else { -1.0 }, false);
+        let mut now = Sensors::new(&model, 9.81);
+        for (i, links) in touches.iter().enumerate() {
+            now.time = i as f64;
+            now.kinematics.links[model.head].com_velocity = [0.0, -1.0 - i as f64];
+            for (link, contact) in model.links.iter().zip(&mut now.contacts) {
+                contact.touching = links.contains(&link.name.as_str());
+            }
+            let fell = (i == 0).then_some(&EventKind::Fell);
+            watch.observe(&now, fell.into_iter());
+        }
+        watch.finish()[0]
+    }
+
+    #[test]
+    fn hands_before_head_and_trunk_break_a_forward_fall() {
+        assert!(fall(true, &[&["forearm_l"], &["torso"], &["head"]]).broken_well());
+        assert!(fall(true, &[&["shank_r"], &["thigh_r"]]).broken_well());
+        assert!(!fall(true, &[&["torso"], &["forearm_l"]]).broken_well());
+        assert!(!fall(true, &[&["head"], &["forearm_l"]]).broken_well());
+    }
+
+    #[test]
+    fn hands_or_seat_before_the_head_break_a_backward_fall() {
+        assert!(fall(false, &[&["pelvis"], &["torso"], &["head"]]).broken_well());
+        assert!(fall(false, &[&["torso"], &["upper_arm_l"]]).broken_well());
+        assert!(!fall(false, &[&["torso"], &["head"], &["pelvis"]]).broken_well());
+    }
+
+    #[test]
+    fn the_head_is_as_fast_as_just_before_it_touches() {
+        let fall = fall(false, &[&["pelvis"], &[], &["head"], &["head"]]);
+        assert_eq!(fall.head_speed, Some(2.0));
+    }
+
+    #[test]
+    fn a_heap_has_not_fallen() {
+        let model = Model::load("humanoid").unwrap();
+        let mut watch = Watch::new(&model, 0.0, true);
+        let now = Sensors::new(&model, 9.81);
+        watch.observe(&now, [EventKind::Fell].iter());
+        assert!(watch.falls.is_empty() && watch.falling.is_none());
+        watch.observe(&now, [EventKind::Stood, EventKind::Fell].iter());
+        assert_eq!(watch.finish().len(), 1);
+    }
+}

@@ -1,0 +1,215 @@
+//! What the trials have in common, and one trial: draw, simulate, watch.
+//!
+//! seed, index → disturbance → [`Simulation`] → [`Trial`].
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use anyhow::Result;
+use aplomb::framework::model::Model;
+use aplomb::framework::registry::Registry;
+use aplomb::framework::scenario::{Happening, Number, Scenario};
+use aplomb::framework::simulation::Simulation;
+use aplomb::framework::trajectory::{Event, EventKind};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::falls::{Fall, Watch};
+
+/// s; when trials are pushed.
+const PUSH_AT: f64 = 1.0;
+/// Gap under a heap before it drops, m.
+const DROP: f64 = 0.02;
+/// Steps between two looks at whether to stop.
+const PATIENCE: u64 = 500;
+
+/// How trials are disturbed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Disturbance {
+    /// Weakest and strongest push either way, N·s.
+    pub(super) impulse: [f64; 2],
+    /// Largest offset of a joint, rad.
+    pub(super) max_angle: f64,
+    /// Starts as a heap on the floor.
+    pub(super) fallen: bool,
+}
+
+/// What the trials have in common.
+#[derive(Debug)]
+pub(super) struct Plan {
+    /// Before it is disturbed.
+    pub(super) scenario: Scenario,
+    pub(super) disturbance: Disturbance,
+    registry: Registry,
+    model: Arc<Model>,
+    pool: Vec<String>,
+}
+
+/// One trial before it runs.
+#[derive(Debug)]
+pub(super) struct Staged {
+    index: u64,
+    /// Disturbed.
+    pub(super) scenario: Scenario,
+    push: Option<(String, f64)>,
+    pub(super) simulation: Simulation,
+}
+
+/// What became of one trial.
+#[derive(Debug)]
+pub(super) struct Trial {
+    pub(super) index: u64,
+    /// Link and horizontal impulse, N·s.
+    pub(super) push: Option<(String, f64)>,
+    pub(super) standing: bool,
+    pub(super) posture: &'static str,
+    /// Of the first character.
+    pub(super) events: Vec<Event>,
+    pub(super) falls: Vec<Fall>,
+    pub(super) steps: u64,
+}
+
+impl Trial {
+    /// In words.
+    pub(super) fn disturbance(&self) -> String {
+        match &self.push {
+            Some((link, impulse)) => format!("{link} {impulse:+.2} N·s"),
+            None => "no push".to_owned(),
+        }
+    }
+}
+
+impl Plan {
+    /// Also builds one simulation, so that bad input shows before the trials begin.
+    pub(super) fn new(
+        scenario: Scenario,
+        registry: Registry,
+        disturbance: Disturbance,
+    ) -> Result<Self> {
+        let simulation = Simulation::new(&scenario, &registry)?;
+        let model = Arc::clone(simulation.world().characters()[0].body.model());
+        let pool = simulation.actors()[0].mind.controllers();
+        let pool = pool.map(|c| c.contract().name.clone()).collect();
+        Ok(Self {
+            scenario,
+            disturbance,
+            registry,
+            model,
+            pool,
+        })
+    }
+
+    /// Names of the first character's controllers.
+    pub(super) fn pool(&self) -> &[String] {
+        &self.pool
+    }
+
+    /// s
+    pub(super) fn dt(&self) -> f64 {
+        self.scenario.settings.dt
+    }
+
+    /// The scenario of trial `index`, disturbed, and its push. What is drawn for the push does not
+    /// depend on the other disturbances.
+    fn draw(&self, index: u64) -> (Scenario, Option<(String, f64)>) {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.scenario.seed);
+        rng.set_stream(index);
+        let mut scenario = self.scenario.clone();
+        let push = self.draw_push(&mut rng);
+        if let Some((link, impulse)) = &push {
+            scenario.events.push(Happening::Push {
+                at: Number::Value(PUSH_AT),
+                link: link.clone(),
+                impulse: Number::Value(*impulse),
+                over: 0.1,
+                character: 0,
+            });
+        }
+        let Disturbance {
+            max_angle, fallen, ..
+        } = self.disturbance;
+        let start = &mut scenario.characters[0].start;
+        for joint in self.model.joints() {
+            let part = rng.gen_range(-1.0..1.0);
+            let [low, high] = joint.range;
+            if fallen {
+                let angle = 0.5 * (low + high) + 0.5 * part * (high - low);
+                start.angles.insert(joint.name.clone(), angle);
+            } else if max_angle > 0.0 {
+                let angle = start.angles.entry(joint.name.clone()).or_insert(0.0);
+                *angle = (*angle + part * max_angle).clamp(low, high);
+            }
+        }
+        if fallen {
+            start.pitch = rng.gen_range(-std::f64::consts::PI..std::f64::consts::PI);
+            start.lift = DROP;
+        }
+        (scenario, push)
+    }
+
+    fn draw_push(&self, rng: &mut ChaCha8Rng) -> Option<(String, f64)> {
+        let model = &self.model;
+        let links = [0, model.trunk, model.head];
+        let link = &model.links[links[rng.gen_range(0..links.len())]];
+        let part: f64 = rng.gen_range(-1.0..1.0);
+        let [least, most] = self.disturbance.impulse;
+        let impulse = (least + part.abs() * (most - least)).copysign(part);
+        (most > 0.0).then(|| (link.name.clone(), impulse))
+    }
+
+    /// Trial `index`, ready to run.
+    pub(super) fn stage(&self, index: u64) -> Result<Staged> {
+        let (scenario, push) = self.draw(index);
+        let simulation = Simulation::new(&scenario, &self.registry)?;
+        Ok(Staged {
+            index,
+            scenario,
+            push,
+            simulation,
+        })
+    }
+
+    /// Runs trial `index`; none if it was stopped.
+    pub(super) fn run(&self, index: u64, stop: &AtomicBool) -> Result<Option<Trial>> {
+        if stop.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+        Ok(self.watch(&mut self.stage(index)?, stop))
+    }
+
+    /// Runs a trial that is ready; none if it was stopped.
+    pub(super) fn watch(&self, staged: &mut Staged, stop: &AtomicBool) -> Option<Trial> {
+        let simulation = &mut staged.simulation;
+        let push = staged.push.clone();
+        let steps = (staged.scenario.duration / self.dt()).round() as u64;
+        let pushed = push.as_ref().map_or(0.0, |p| p.1);
+        let mut watch = Watch::new(&self.model, pushed, self.disturbance.fallen);
+        let mut seen = simulation.events().len();
+        for step in 0..steps {
+            if step.is_multiple_of(PATIENCE) && stop.load(Ordering::Relaxed) {
+                return None;
+            }
+            simulation.step();
+            let events = simulation.events();
+            let fresh = events[seen..].iter().filter(|e| e.character == 0);
+            watch.observe(simulation.sensors(0), fresh.map(|e| &e.kind));
+            seen = events.len();
+        }
+        let outcome = simulation.outcome(0);
+        let of_first = |e: &&Event| e.character == 0 && !matches!(e.kind, EventKind::Push { .. });
+        Some(Trial {
+            index: staged.index,
+            push,
+            standing: outcome.standing,
+            posture: outcome.posture.name(),
+            events: simulation
+                .events()
+                .iter()
+                .filter(of_first)
+                .cloned()
+                .collect(),
+            falls: watch.finish(),
+            steps,
+        })
+    }
+}

@@ -1,0 +1,229 @@
+//! Sums over trials that do not depend on the order in which the trials finish.
+//!
+//! [`Trial`] → [`Tally`]; tallies of several threads → one.
+
+use std::collections::BTreeMap;
+
+use aplomb::framework::trajectory::EventKind;
+use serde::Serialize;
+
+use super::falls::Fall;
+use super::plan::Trial;
+
+/// s; shorter activations are told, unless a failure or a command ended them.
+const SHORT: f64 = 0.05;
+
+/// What one controller did.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub(super) struct Activations {
+    pub(super) activations: u64,
+    pub(super) succeeded: u64,
+    pub(super) failed: u64,
+}
+
+/// A trial that does not stand at its end.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Failure {
+    pub(super) index: u64,
+    pub(super) link: Option<String>,
+    pub(super) impulse: Option<f64>,
+    pub(super) posture: &'static str,
+}
+
+/// Falls in one direction.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Falls {
+    pub(super) count: u64,
+    /// See [`Fall::broken_well`].
+    pub(super) broken_well: u64,
+    /// m/s, of the falls in which the head touched.
+    pub(super) head_speeds: Vec<f64>,
+}
+
+/// The sums.
+#[derive(Debug, Default)]
+pub(super) struct Tally {
+    count: u64,
+    pub(super) standing: u64,
+    pub(super) fell: u64,
+    pub(super) stepped: u64,
+    pub(super) steps: u64,
+    /// From one controller to another.
+    pub(super) switches: u64,
+    pub(super) short_activations: u64,
+    pub(super) controllers: BTreeMap<String, Activations>,
+    failures: Vec<Failure>,
+    pub(super) forward: Falls,
+    pub(super) backward: Falls,
+}
+
+impl Tally {
+    /// Nothing yet, for these controllers.
+    pub(super) fn new(pool: &[String]) -> Self {
+        let none = |name: &String| (name.clone(), Activations::default());
+        Self {
+            controllers: pool.iter().map(none).collect(),
+            ..Self::default()
+        }
+    }
+
+    /// Number of trials.
+    pub(super) fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// In the order of their indices.
+    pub(super) fn failures(&mut self) -> &[Failure] {
+        self.failures.sort_by_key(|f| f.index);
+        &self.failures
+    }
+
+    /// Takes in a trial.
+    pub(super) fn take(&mut self, trial: &Trial) {
+        self.count += 1;
+        self.steps += trial.steps;
+        self.standing += u64::from(trial.standing);
+        self.fell += u64::from(!trial.falls.is_empty());
+        for fall in &trial.falls {
+            self.of(fall.forward).take(fall);
+        }
+        if !trial.standing {
+            self.failures.push(Failure {
+                index: trial.index,
+                link: trial.push.as_ref().map(|p| p.0.clone()),
+                impulse: trial.push.as_ref().map(|p| p.1),
+                posture: trial.posture,
+            });
+        }
+        self.take_switches(trial);
+    }
+
+    fn of(&mut self, forward: bool) -> &mut Falls {
+        if forward {
+            &mut self.forward
+        } else {
+            &mut self.backward
+        }
+    }
+
+    fn take_switches(&mut self, trial: &Trial) {
+        let mut since: BTreeMap<&str, f64> = BTreeMap::new();
+        let mut stepped = false;
+        for event in &trial.events {
+            let EventKind::Switch { from, to, why, .. } = &event.kind else {
+                continue;
+            };
+            self.controllers.entry(to.clone()).or_default().activations += 1;
+            since.insert(to, event.time);
+            stepped |= to.contains("step");
+            let Some(from) = from else { continue };
+            self.switches += 1;
+            let (succeeded, failed) = (why == "succeeded", why.starts_with("failed"));
+            let former = self.controllers.entry(from.clone()).or_default();
+            former.succeeded += u64::from(succeeded);
+            former.failed += u64::from(failed);
+            let lasted = since.remove(from.as_str()).map(|t| event.time - t);
+            let short = lasted.is_some_and(|s| s < SHORT - 1e-9);
+            self.short_activations += u64::from(short && !failed && why != "command");
+        }
+        self.stepped += u64::from(stepped);
+    }
+
+    /// Both together.
+    pub(super) fn merged(mut self, other: Self) -> Self {
+        self.count += other.count;
+        self.standing += other.standing;
+        self.fell += other.fell;
+        self.stepped += other.stepped;
+        self.steps += other.steps;
+        self.switches += other.switches;
+        self.short_activations += other.short_activations;
+        for (name, theirs) in other.controllers {
+            let ours = self.controllers.entry(name).or_default();
+            ours.activations += theirs.activations;
+            ours.succeeded += theirs.succeeded;
+            ours.failed += theirs.failed;
+        }
+        self.failures.extend(other.failures);
+        self.forward.merge(other.forward);
+        self.backward.merge(other.backward);
+        self
+    }
+}
+
+impl Falls {
+    fn take(&mut self, fall: &Fall) {
+        self.count += 1;
+        self.broken_well += u64::from(fall.broken_well());
+        self.head_speeds.extend(fall.head_speed);
+    }
+
+    fn merge(&mut self, other: Self) {
+        self.count += other.count;
+        self.broken_well += other.broken_well;
+        self.head_speeds.extend(other.head_speeds);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use aplomb::framework::trajectory::Event;
+
+    fn trial(index: u64, switches: &[(f64, &str, &str, &str)]) -> Trial {
+        let event = |(time, from, to, why): &(f64, &str, &str, &str)| Event {
+            time: *time,
+            character: 0,
+            kind: EventKind::Switch {
+                from: Some((*from).to_owned()).filter(|f| !f.is_empty()),
+                to: (*to).to_owned(),
+                why: (*why).to_owned(),
+                bids: Vec::new(),
+            },
+        };
+        Trial {
+            index,
+            push: None,
+            standing: index.is_multiple_of(2),
+            posture: "supine",
+            events: switches.iter().map(event).collect(),
+            falls: Vec::new(),
+            steps: 1000,
+        }
+    }
+
+    #[test]
+    fn switches_are_counted_for_both_controllers() {
+        let mut tally = Tally::new(&["rest".to_owned()]);
+        tally.take(&trial(
+            0,
+            &[
+                (0.0, "", "stance", "start"),
+                (1.0, "stance", "side_step", "failed: x"),
+                (1.02, "side_step", "stance", "succeeded"),
+                (1.03, "stance", "bow", "command"),
+            ],
+        ));
+        assert_eq!((tally.switches, tally.stepped), (3, 1));
+        assert_eq!(tally.short_activations, 1);
+        let stance = tally.controllers["stance"];
+        assert_eq!((stance.activations, stance.failed), (2, 1));
+        assert_eq!(tally.controllers["side_step"].succeeded, 1);
+        assert_eq!(tally.controllers["rest"], Activations::default());
+    }
+
+    #[test]
+    fn the_order_of_trials_does_not_matter() {
+        let part = |indices: [u64; 2]| {
+            let mut tally = Tally::new(&[]);
+            for i in indices {
+                tally.take(&trial(i, &[]));
+            }
+            tally
+        };
+        let mut a = part([0, 1]).merged(part([3, 5]));
+        let mut b = part([5, 3]).merged(part([1, 0]));
+        assert_eq!(a.failures(), b.failures());
+        assert_eq!((a.count(), a.standing), (4, 1));
+    }
+}

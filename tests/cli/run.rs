@@ -1,0 +1,184 @@
+//! `aplomb`, `run`, `controllers`, `render`.
+
+use predicates::prelude::*;
+use serde_json::{Value, json as value};
+
+use crate::{called, json, scenario};
+
+fn kinds(run: &Value) -> Vec<&str> {
+    let events = run["events"].as_array().unwrap();
+    events.iter().map(|e| e["kind"].as_str().unwrap()).collect()
+}
+
+#[test]
+fn the_story_is_told_drawn_and_recorded() {
+    let folder = tempfile::tempdir().unwrap();
+    called("")
+        .current_dir(folder.path())
+        .assert()
+        .success()
+        .stdout(predicate::str::contains("push     torso -120 N·s"))
+        .stdout(predicate::str::contains(
+            "aplomb render out/story.trajectory -o story.gif",
+        ));
+    let picture = std::fs::read_to_string(folder.path().join("out/story.svg")).unwrap();
+    assert!(picture.contains("<svg") && picture.len() > 20_000);
+    called("render out/story.trajectory -o again.svg --plot")
+        .current_dir(folder.path())
+        .assert()
+        .success();
+    let again = std::fs::read_to_string(folder.path().join("again.svg")).unwrap();
+    assert!(picture == again, "the recording is drawn as the run was");
+}
+
+#[test]
+fn a_run_is_told_as_json() {
+    let run = json("run --duration 2 --push 0.5:torso:-10 --command 0.2:rest --seed 7");
+    for key in ["digest", "wall_s", "peak_torque"] {
+        assert!(!run[key].is_null(), "{key}");
+    }
+    assert_eq!(run["scenario"], "standing");
+    assert_eq!(run["character"], "humanoid");
+    assert_eq!((&run["seed"], &run["dt"]), (&value!(7), &value!(0.001)));
+    assert_eq!(run["duration"], 2.0);
+    assert!(run["peak_torque"]["hip_r"].as_f64().unwrap() > 0.0);
+    let events = run["events"].as_array().unwrap();
+    let push = value!({"t": 0.5, "kind": "push", "link": "torso", "impulse": -10.0});
+    let start = value!({"t": 0.0, "kind": "switch", "from": null, "to": "balance", "why": "start"});
+    let command = value!({"t": 0.2, "kind": "command", "text": "rest", "accepted": true});
+    for expected in [&push, &start, &command] {
+        assert!(events.contains(expected), "{expected}");
+    }
+    let called = |e: &Value| e["from"] == "balance" && e["to"] == "rest" && e["why"] == "command";
+    assert!(events.iter().any(called));
+    let end = &run["end"];
+    assert!(end["standing"].is_boolean() && end["active"].is_string());
+    assert!(end["posture"].is_string());
+    assert_eq!(end["com"].as_array().unwrap().len(), 2);
+    assert_eq!(end["com_velocity"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn a_refused_command_names_the_clause_and_the_value() {
+    let run = json("run --duration 2.5 --push 0.2:torso:-200 --command 2.2:balance");
+    let events = run["events"].as_array().unwrap();
+    let refused = events.iter().find(|e| e["kind"] == "refused").unwrap();
+    assert_eq!(refused["controller"], "balance");
+    assert!(refused["clause"].is_string());
+    assert!(kinds(&run).contains(&"fell"));
+    let given = value!({"t": 2.2, "kind": "command", "text": "balance", "accepted": false});
+    assert!(events.contains(&given));
+    let standing = run["end"]["standing"].as_bool();
+    assert_eq!(standing, Some(false));
+}
+
+#[test]
+fn explaining_adds_every_bid() {
+    let run = json("run --duration 0.1 --explain");
+    let bids = run["events"][0]["bids"].as_array().unwrap();
+    assert!(bids.iter().any(|b| b["controller"] == "rest"));
+    called("run --duration 0.1 --explain")
+        .assert()
+        .success()
+        .stdout(predicate::str::contains("balance  bids "));
+}
+
+#[test]
+fn an_expectation_that_is_not_met_is_exit_code_1() {
+    called("run")
+        .arg(scenario("unmet.ron"))
+        .assert()
+        .code(1)
+        .stderr("expectation not met: character 0 does not stand at the end\n");
+    let run = json(&format!("run {}", scenario("unmet.ron")));
+    assert!(run["unmet"].is_string());
+    assert!(json("run standing --duration 2")["unmet"].is_null());
+}
+
+#[test]
+fn several_characters_have_an_end_each() {
+    let run = json(&format!("run {} --set impulse=10", scenario("two.ron")));
+    assert_eq!(run["ends"].as_array().unwrap().len(), 2);
+    assert_eq!(run["ends"][0], run["end"]);
+    let events = run["events"].as_array().unwrap();
+    let push =
+        value!({"t": 0.4, "kind": "push", "link": "pelvis", "impulse": -10.0, "character": 1});
+    assert!(events.contains(&push));
+    assert!(events.iter().all(|e| e["character"].is_u64()));
+    called("run")
+        .arg(scenario("two.ron"))
+        .assert()
+        .success()
+        .stdout(predicate::str::contains("[1] push     pelvis -20 N·s"));
+}
+
+#[test]
+fn a_push_after_the_end_is_noted() {
+    called("run --duration 0.1 --push 5:torso:10")
+        .assert()
+        .success()
+        .stderr("note: --push 5:torso:10 is after the end at 0.1 s\n");
+}
+
+#[test]
+fn recordings_and_pictures_are_written() {
+    let folder = tempfile::tempdir().unwrap();
+    called("run --duration 0.5 --record deep/x.trajectory --render x.svg")
+        .current_dir(folder.path())
+        .assert()
+        .success()
+        .stderr("recorded in deep/x.trajectory\ndrawn into x.svg\n");
+    called("render deep/x.trajectory -o x.png")
+        .current_dir(folder.path())
+        .assert()
+        .success()
+        .stdout("drawn into x.png\n");
+    let png = std::fs::read(folder.path().join("x.png")).unwrap();
+    assert!(png.starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn a_recording_that_would_not_fit_into_memory_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "(name: \"x\", duration: 3600.0, settings: (dt: 1e-5), characters: [(character: \"humanoid\")])";
+    std::fs::write(folder.path().join("x.ron"), text).unwrap();
+    let error = crate::refusal(folder.path(), &["run", "x.ron", "--record", "x.trajectory"]);
+    assert!(error.contains("GB"), "{error}");
+}
+
+#[test]
+fn the_pool_is_listed() {
+    let pool = json("controllers");
+    let pool = pool.as_array().unwrap();
+    let rest = pool.iter().find(|c| c["name"] == "rest").unwrap();
+    assert_eq!(rest["kind"], "rest");
+    assert_eq!(rest["weight"], 1);
+    assert_eq!(rest["precondition"], "always");
+    assert_eq!(rest["expected"], "always");
+    assert_eq!(rest["learned"], false);
+    assert_eq!(rest["commands"][0]["name"], "rest");
+    called("controllers")
+        .assert()
+        .success()
+        .stdout(predicate::str::contains("  takes over where  always"));
+}
+
+#[test]
+fn a_repertoire_can_be_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = r#"(name: "limp", fallback: "rest", controllers: [
+        Here((kind: "rest", contract: (name: "rest", weight: 1, precondition: Always))),
+    ])"#;
+    std::fs::write(folder.path().join("limp.ron"), text).unwrap();
+    let pool = called("controllers --repertoire limp.ron --json")
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    let pool: Value = serde_json::from_slice(&pool.stdout).unwrap();
+    assert_eq!(pool.as_array().unwrap().len(), 1);
+    called("run --repertoire limp.ron --duration 2 --push 0.1:torso:-100")
+        .current_dir(folder.path())
+        .assert()
+        .success()
+        .stdout(predicate::str::contains("fell"));
+}

@@ -1,0 +1,112 @@
+//! `trials`.
+
+use predicates::prelude::*;
+use serde_json::Value;
+
+use crate::{called, json};
+
+#[test]
+fn trials_are_told_as_json() {
+    let trials = json("trials --count 6 --max-impulse 250 --min-impulse 150 --duration 2.5");
+    for key in ["wall_s", "steps_per_s", "stepped", "switches_per_minute"] {
+        assert!(trials[key].is_number(), "{key}");
+    }
+    assert_eq!(trials["count"], 6);
+    assert_eq!(trials["seed"], 0);
+    assert_eq!(trials["interrupted"], false);
+    assert_eq!(trials["simulated_s"], 15.0);
+    assert!(trials["short_activations"].is_u64());
+    let number = |v: &Value| v.as_f64().unwrap();
+    let fraction = number(&trials["standing"]) / 6.0;
+    assert_eq!(number(&trials["fraction"]), fraction);
+    let interval = &trials["interval95"];
+    assert!(number(&interval[0]) <= fraction && fraction <= number(&interval[1]));
+    let rest = &trials["controllers"]["rest"];
+    for key in ["activations", "succeeded", "failed"] {
+        assert!(rest[key].is_u64(), "{key}");
+    }
+    let balance = &trials["controllers"]["balance"];
+    assert!(balance["activations"].as_u64().unwrap() >= 6);
+    let falls = &trials["falls"];
+    let count = |way: &str| falls[way]["count"].as_u64().unwrap();
+    assert!(count("forward") + count("backward") >= trials["fell"].as_u64().unwrap());
+    assert!(falls["forward"]["hands_first"].is_u64());
+    assert!(falls["backward"]["hands_or_seat_first"].is_u64());
+    assert!(falls["head_hits"].is_u64());
+    let failures = trials["failures"].as_array().unwrap();
+    assert_eq!(
+        failures.len() as u64,
+        6 - trials["standing"].as_u64().unwrap()
+    );
+    for failure in failures {
+        assert!(["pelvis", "torso", "head"].contains(&failure["link"].as_str().unwrap()));
+        let impulse = number(&failure["impulse"]).abs();
+        assert!((150.0..=250.0).contains(&impulse), "{impulse}");
+        assert!(failure["posture"].is_string());
+    }
+}
+
+#[test]
+fn a_failed_trial_can_be_repeated_alone_and_recorded() {
+    let options = "--count 4 --max-impulse 300 --min-impulse 250 --duration 2.5 --seed 9";
+    let trials = json(&format!("trials {options}"));
+    let failure = &trials["failures"][0];
+    let index = failure["index"].as_u64().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let output = called(&format!(
+        "trials {options} --only {index} --record x.trajectory --json"
+    ))
+    .current_dir(folder.path())
+    .output()
+    .unwrap();
+    let alone: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(&alone["failures"][0], failure);
+    assert_eq!(alone["count"], 1);
+    assert_eq!(alone["run"]["end"]["posture"], failure["posture"]);
+    assert!(folder.path().join("x.trajectory").exists());
+    called(&format!("trials {options} --only {index}"))
+        .assert()
+        .success()
+        .stdout(predicate::str::starts_with(format!("trial {index}: ")));
+}
+
+#[test]
+fn a_trial_does_not_depend_on_how_many_there_are() {
+    let digest = |count: u32| json(&format!("trials --count {count} --only 2 --duration 1.5"));
+    assert_eq!(digest(3)["run"]["digest"], digest(300)["run"]["digest"]);
+}
+
+#[test]
+fn heaps_lie_on_the_floor_and_are_not_pushed() {
+    let trials = json("trials --fallen --count 4 --duration 0.5");
+    assert_eq!(
+        (&trials["standing"], &trials["fell"]),
+        (&0.into(), &0.into())
+    );
+    assert_eq!(trials["failures"].as_array().unwrap().len(), 4);
+    assert!(trials["failures"][0]["link"].is_null());
+    let one = json("trials --fallen --count 4 --duration 0.5 --only 1");
+    let height = one["run"]["end"]["com"][1].as_f64().unwrap();
+    assert!(height < 0.9, "{height}");
+}
+
+#[test]
+fn joints_are_off_at_the_start() {
+    let digest = |angle: f64| {
+        let trial = json(&format!(
+            "trials --max-angle {angle} --only 0 --duration 0.1"
+        ));
+        trial["run"]["digest"].as_str().unwrap().to_owned()
+    };
+    assert_ne!(digest(0.05), digest(0.1));
+}
+
+#[test]
+fn results_are_told_in_words() {
+    called("trials --count 2 --duration 2 --max-impulse 5")
+        .assert()
+        .success()
+        .stdout(predicate::str::contains("pushes of 0 to 5 N·s either way"))
+        .stdout(predicate::str::contains("standing at the end  2 (100.0 %;"))
+        .stderr("");
+}

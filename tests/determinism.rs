@@ -1,0 +1,129 @@
+//! The same seed gives the same run, bit for bit: twice, on a clone, over any number of threads,
+//! and read back from a recording.
+
+#![allow(clippy::unwrap_used)]
+
+use aplomb::framework::scenario::{Happening, Number, Scenario};
+use aplomb::framework::simulation::Simulation;
+use aplomb::framework::trajectory::Trajectory;
+use assert_cmd::cargo::cargo_bin_cmd;
+use serde_json::Value;
+
+/// s; the character is falling and touches the ground with more than its feet.
+const IN_CONTACT: f64 = 1.2;
+const END: f64 = 2.5;
+
+/// A hard push from the front.
+fn fall() -> Simulation {
+    let mut scenario = Scenario::standing("humanoid", END);
+    scenario.events.push(Happening::Push {
+        at: Number::Value(0.3),
+        link: "torso".to_owned(),
+        impulse: Number::Value(-150.0),
+        over: 0.1,
+        character: 0,
+    });
+    Simulation::new(&scenario, &aplomb::controllers::registry()).unwrap()
+}
+
+#[test]
+fn two_runs_have_one_digest() {
+    let digest = || {
+        let mut simulation = fall();
+        simulation.run(END);
+        simulation.digest()
+    };
+    assert_eq!(digest(), digest());
+}
+
+#[test]
+fn a_clone_in_mid_contact_continues_like_its_original() {
+    let mut original = fall();
+    original.run(IN_CONTACT);
+    let touching = original.sensors(0).contacts.iter().filter(|c| c.touching);
+    assert!(touching.count() > 0 && !original.sensors(0).only_feet_touch());
+    let mut clone = original.clone();
+    original.run(END - IN_CONTACT);
+    clone.run(END - IN_CONTACT);
+    assert_eq!(original.digest(), clone.digest());
+    assert_eq!(original.events(), clone.events());
+    assert_eq!(original.outcome(0), clone.outcome(0));
+}
+
+#[test]
+fn a_recording_read_back_has_the_digest_and_events_of_its_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("fall.trajectory");
+    let mut simulation = fall();
+    simulation.record("fall", 0);
+    simulation.run(END);
+    simulation.recording().unwrap().write(&path).unwrap();
+    let back = Trajectory::read(&path).unwrap();
+    assert_eq!(back.digest(), simulation.digest());
+    assert_eq!(back.events, simulation.events());
+    assert_eq!(back.len(), 2500);
+}
+
+#[test]
+fn recording_and_explaining_change_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let digest = |more: &[&str]| {
+        let output = cargo_bin_cmd!("aplomb")
+            .current_dir(folder.path())
+            .args([
+                "run",
+                "--duration",
+                "2",
+                "--push",
+                "0.3:torso:-150",
+                "--json",
+            ])
+            .args(more)
+            .output()
+            .unwrap();
+        let run: Value = serde_json::from_slice(&output.stdout).unwrap();
+        run["digest"].as_str().unwrap().to_owned()
+    };
+    let plain = digest(&[]);
+    assert_eq!(plain, digest(&["--record", "x.trajectory", "--explain"]));
+    let mut simulation = fall();
+    simulation.run(2.0);
+    assert_eq!(
+        plain,
+        simulation.digest(),
+        "the program and the library agree"
+    );
+}
+
+#[test]
+fn trials_do_not_depend_on_the_number_of_threads() {
+    let trials = |jobs: &str, more: &[&str]| {
+        let output = cargo_bin_cmd!("aplomb")
+            .args([
+                "trials",
+                "--count",
+                "8",
+                "--seed",
+                "5",
+                "--duration",
+                "2.5",
+                "--json",
+            ])
+            .args(["--jobs", jobs])
+            .args(more)
+            .output()
+            .unwrap();
+        let mut trials: Value = serde_json::from_slice(&output.stdout).unwrap();
+        for clocked in ["wall_s", "steps_per_s"] {
+            trials.as_object_mut().unwrap().remove(clocked).unwrap();
+        }
+        trials
+    };
+    for more in [
+        &["--max-impulse", "200"][..],
+        &["--fallen"],
+        &["--max-angle", "0.3"],
+    ] {
+        assert_eq!(trials("1", more), trials("2", more), "{more:?}");
+    }
+}
