@@ -1,1 +1,3 @@
-//! wip
+//! Aplomb: composable controllers for physically simulated characters.
+
+pub mod render;

@@ -127,7 +127,7 @@ fn com_height(model: &Model, pose: &[f64]) -> f64 {
 }
 
 /// Rear and front end of the soles of the touching feet, whether flat or tilted, world x, m.
-pub(crate) fn soles(now: &Sensors) -> Option<[f64; 2]> {
+pub fn soles(now: &Sensors) -> Option<[f64; 2]> {
     let mut ends: Option<[f64; 2]> = None;
     for (foot, contact) in now.model.feet.iter().zip(&now.feet) {
         if contact.touching() {

@@ -12,11 +12,14 @@
 //! program and solver), [`servo`] (joint servos) and [`target`] (poses by joint name).
 
 pub mod balance;
+pub mod fall;
 pub mod momentum;
+pub mod pose;
 pub mod problem;
 pub mod quadratic_program;
 pub mod rest;
 pub mod servo;
+pub mod stance;
 pub mod target;
 
 use aplomb_framework::registry::Registry;
@@ -24,11 +27,27 @@ use aplomb_framework::registry::Registry;
 /// All the kinds of controllers and all shipped files.
 #[must_use]
 pub fn registry() -> Registry {
-    Registry::new()
+    let registry = Registry::new()
         .with::<balance::BalanceSpec>()
+        .with::<stance::StanceSpec>()
+        .with::<fall::FallSpec>()
         .with::<rest::RestSpec>()
-        .with_file(
-            "repertoires/humanoid.ron",
-            include_str!("../repertoires/humanoid.ron"),
-        )
+        .with::<pose::PoseSpec>();
+    FILES.iter().fold(registry, |r, (name, text)| r.with_file(name, text))
 }
+
+/// A file of this crate under its own name.
+macro_rules! shipped {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../", $name)))),*]
+    };
+}
+
+const FILES: &[(&str, &str)] = shipped![
+    "poses/bow.ron",
+    "repertoires/humanoid.ron",
+    "skills/balance.ron",
+    "skills/fall.ron",
+    "skills/rest.ron",
+    "skills/stance.ron",
+];

@@ -30,6 +30,12 @@ impl Servo {
         self.kd[joint] *= damping;
     }
 
+    /// One joint's stiffness, N·m/rad.
+    #[must_use]
+    pub fn stiffness(&self, joint: usize) -> f64 {
+        self.kp[joint]
+    }
+
     /// Torques towards target angles (rad) at rest, N·m; `strength` scales the stiffness.
     pub fn track(&self, now: &Sensors, target: &[f64], strength: f64, torques: &mut [f64]) {
         let joints = now.state.angles().iter().zip(now.state.rates()).zip(target);

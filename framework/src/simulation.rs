@@ -103,17 +103,27 @@ impl Simulation {
     /// # Errors
     /// Unreadable or invalid characters and repertoires; links, joints or commands that they lack.
     pub fn new(scenario: &Scenario, registry: &Registry) -> Result<Self> {
-        let mut world = World::new(scenario.settings);
-        let mut actors = Vec::with_capacity(scenario.characters.len());
-        let mut models = Vec::new();
+        let mut minds = Vec::with_capacity(scenario.characters.len());
         for role in &scenario.characters {
             let model = Model::load(&role.character)?;
             let repertoire = role.repertoire.as_deref().unwrap_or(&model.name);
-            let mind = repertoire::load(repertoire, registry, &model)?;
-            let state = start_state(&model, &role.start)?;
-            world.spawn(&model, &state);
+            minds.push(repertoire::load(repertoire, registry, &model)?);
+        }
+        Self::with_minds(scenario, minds)
+    }
+
+    /// The same with minds that were built elsewhere, one a character of the scenario; characters
+    /// without one are left out.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_minds(scenario: &Scenario, minds: Vec<Supervisor>) -> Result<Self> {
+        let mut world = World::new(scenario.settings);
+        let mut actors = Vec::with_capacity(minds.len());
+        for (role, mind) in scenario.characters.iter().zip(minds) {
+            let model = Model::load(&role.character)?;
+            world.spawn(&model, &start_state(&model, &role.start)?);
             actors.push(Actor::new(mind, &model));
-            models.push(model);
         }
         for prop in &scenario.props {
             world.add_prop(prop);

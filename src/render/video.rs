@@ -1,0 +1,60 @@
+//! MP4 files, encoded by the `ffmpeg` executable.
+
+use std::io::{ErrorKind, Read, Write};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result, bail};
+use aplomb_framework::trajectory::Trajectory;
+
+use super::animation::{AnimationOptions, Film};
+
+/// Plays the recording in real time, as the bytes of an MP4 file (H.264).
+///
+/// # Errors
+/// An empty trajectory, options outside what they accept, `ffmpeg` missing or failing.
+pub fn mp4(trajectory: &Trajectory, options: &AnimationOptions) -> Result<Vec<u8>> {
+    let film = Film::new(trajectory, options)?;
+    let folder = tempfile::tempdir().context("no temporary folder for the video")?;
+    let path = folder.path().join("video.mp4");
+    let mut child = Command::new("ffmpeg")
+        .args(["-nostdin", "-loglevel", "error", "-y"])
+        .args(["-f", "rawvideo", "-pix_fmt", "rgba"])
+        .args(["-s", &format!("{}x{}", options.width, options.height)])
+        .args(["-r", &options.fps.to_string(), "-i", "-"])
+        .args(["-c:v", "libx264", "-crf", "20", "-pix_fmt", "yuv420p"])
+        .args(["-movflags", "+faststart"])
+        .arg(&path)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .map_err(|e| match e.kind() {
+            ErrorKind::NotFound => anyhow::anyhow!(
+                "MP4 files are encoded by the program ffmpeg, which is not installed; without it, draw a .gif"
+            ),
+            _ => anyhow::Error::from(e).context("ffmpeg could not be started"),
+        })?;
+    // Read on the side: a full pipe of messages would stop the encoder.
+    let messages = child.stderr.take().map(|mut pipe| {
+        std::thread::spawn(move || {
+            let mut text = String::new();
+            // What it said is only for the error; unreadable messages are none.
+            let _ = pipe.read_to_string(&mut text);
+            text
+        })
+    });
+    let drawn = match child.stdin.take() {
+        Some(mut pipe) => film.each(
+            |picture| picture.take(),
+            |_, bytes| pipe.write_all(&bytes).context("ffmpeg stopped early"),
+        ),
+        None => Ok(()),
+    };
+    let status = child.wait().context("ffmpeg could not be waited for")?;
+    let said = messages.and_then(|m| m.join().ok()).unwrap_or_default();
+    if !status.success() {
+        bail!("ffmpeg failed ({status}): {}", said.trim());
+    }
+    drawn?;
+    std::fs::read(&path).context("ffmpeg left no video")
+}

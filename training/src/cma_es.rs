@@ -1,0 +1,106 @@
+//! Covariance matrix adaptation (Hansen 2006) in the unit cube, through the `cmaes` crate.
+//!
+//! Parallel over the candidates of a generation; the same seed gives the same result whatever the
+//! number of threads.
+
+use cmaes::{CMAESOptions, DVector};
+
+/// How long and how wide to search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Search {
+    /// Initial standard deviation in the unit cube.
+    pub sigma: f64,
+    /// Candidates a generation.
+    pub population: usize,
+    /// At most this many evaluations.
+    pub evaluations: usize,
+    /// Fixes the candidates.
+    pub seed: u64,
+}
+
+/// A point of the unit cube and its cost.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Best {
+    /// Coordinates in 0..1.
+    pub point: Vec<f64>,
+    /// Cost.
+    pub cost: f64,
+}
+
+/// Minimises `cost` over the unit cube from `start`. Candidates outside the cube are moved to its
+/// face and charged for the distance. `watch` sees the evaluations so far and the best.
+///
+/// # Panics
+/// If `start` is empty.
+pub fn minimise(
+    start: &[f64],
+    search: Search,
+    cost: impl Fn(&[f64]) -> f64 + Sync,
+    mut watch: impl FnMut(usize, &Best),
+) -> Best {
+    let charged = |x: &DVector<f64>| {
+        let inside: Vec<f64> = x.iter().map(|v| v.clamp(0.0, 1.0)).collect();
+        let outside: f64 = x.iter().zip(&inside).map(|(a, b)| (a - b).powi(2)).sum();
+        cost(&inside) + 10.0 * outside
+    };
+    let mut best = Best {
+        point: start.to_vec(),
+        cost: cost(start),
+    };
+    watch(1, &best);
+    let options = CMAESOptions::new(start.to_vec(), search.sigma)
+        .population_size(search.population)
+        .seed(search.seed)
+        .max_function_evals(search.evaluations)
+        .tol_fun(1e-9)
+        .tol_stagnation(1000);
+    let mut state = match options.build(charged) {
+        Ok(state) => state,
+        Err(e) => panic!("a search cannot start: {e:?}"),
+    };
+    loop {
+        let end = state.next_parallel();
+        if let Some(found) = state
+            .overall_best_individual()
+            .filter(|b| b.value < best.cost)
+        {
+            best.cost = found.value;
+            best.point = found.point.iter().map(|v| v.clamp(0.0, 1.0)).collect();
+        }
+        watch(state.function_evals(), &best);
+        if end.is_some() {
+            return best;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn search(threads: usize) -> Best {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let search = Search {
+            sigma: 0.2,
+            population: 10,
+            evaluations: 1200,
+            seed: 4,
+        };
+        let target = [0.3, 0.9, 0.55];
+        let cost = |x: &[f64]| {
+            x.iter()
+                .zip(target)
+                .map(|(a, b)| (a - b).powi(2))
+                .sum::<f64>()
+        };
+        pool.map(|p| p.install(|| minimise(&[0.5; 3], search, cost, |_, _| {})))
+            .unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    #[test]
+    fn finds_a_minimum_and_the_same_one_on_any_number_of_threads() {
+        let (one, two) = (search(1), search(2));
+        assert!(one.cost < 1e-8, "{one:?}");
+        assert_eq!(one, two);
+    }
+}

@@ -1,0 +1,74 @@
+//! What is optimised: named numbers with ranges, mapped to the unit cube.
+
+/// One number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dimension {
+    /// Where it goes.
+    pub name: &'static str,
+    /// At 0.
+    pub low: f64,
+    /// At 1.
+    pub high: f64,
+    /// Whether equal steps are equal factors.
+    pub logarithmic: bool,
+}
+
+/// A number whose steps are differences.
+#[must_use]
+pub const fn linear(name: &'static str, low: f64, high: f64) -> Dimension {
+    Dimension {
+        name,
+        low,
+        high,
+        logarithmic: false,
+    }
+}
+
+/// A positive number whose steps are factors.
+#[must_use]
+pub const fn logarithmic(name: &'static str, low: f64, high: f64) -> Dimension {
+    Dimension {
+        name,
+        low,
+        high,
+        logarithmic: true,
+    }
+}
+
+impl Dimension {
+    /// The number at a coordinate in 0..1.
+    #[must_use]
+    pub fn value(&self, unit: f64) -> f64 {
+        if self.logarithmic {
+            (self.low.ln() + unit * (self.high / self.low).ln()).exp()
+        } else {
+            self.low + unit * (self.high - self.low)
+        }
+    }
+
+    /// The coordinate of a number, moved into 0..1.
+    #[must_use]
+    pub fn unit(&self, value: f64) -> f64 {
+        let u = if self.logarithmic {
+            (value.max(f64::MIN_POSITIVE) / self.low).ln() / (self.high / self.low).ln()
+        } else {
+            (value - self.low) / (self.high - self.low)
+        };
+        u.clamp(0.0, 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_and_coordinates_are_inverse() {
+        for d in [linear("a", -1.0, 3.0), logarithmic("b", 0.01, 100.0)] {
+            for u in [0.0, 0.25, 1.0] {
+                assert!((d.unit(d.value(u)) - u).abs() < 1e-12);
+            }
+            assert_eq!(d.unit(d.low - 1.0), 0.0);
+        }
+    }
+}

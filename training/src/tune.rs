@@ -1,0 +1,223 @@
+//! Optimises the numbers of a standing controller's file.
+//!
+//! controller file → dimensions → CMA-ES over pushes → controller file, with seed and figures.
+
+use std::fmt::Write;
+
+use aplomb_controllers::balance::BalanceSpec;
+use aplomb_controllers::stance::StanceSpec;
+use aplomb_framework::contract::Contract;
+use aplomb_framework::file::{Source, options};
+use aplomb_framework::registry::{ControllerFile, Registry};
+use aplomb_framework::{Error, Result};
+use serde::Serialize;
+
+use crate::cma_es::{Best, Search, minimise};
+use crate::dimension::{Dimension, linear, logarithmic};
+use crate::standing::{self, Push};
+
+/// A kind of controller whose spec can be optimised.
+pub trait Tunable: Sized + Clone + Serialize + serde::de::DeserializeOwned + Sync {
+    /// The `kind` of its files.
+    const KIND: &'static str;
+    /// What is optimised.
+    fn dimensions() -> Vec<Dimension>;
+    /// The number of a dimension, to be read or set.
+    fn slot(&mut self, name: &str) -> &mut f64;
+    /// Makes numbers that depend on others fit them.
+    fn settle(&mut self) {}
+}
+
+impl Tunable for BalanceSpec {
+    const KIND: &'static str = "balance";
+
+    fn dimensions() -> Vec<Dimension> {
+        vec![
+            logarithmic("kl", 5.0, 400.0),
+            logarithmic("dl", 3.0, 80.0),
+            logarithmic("kl_height", 10.0, 400.0),
+            logarithmic("dh", 0.1, 30.0),
+            logarithmic("kt", 2.0, 200.0),
+            logarithmic("dt", 1.0, 50.0),
+            logarithmic("angular", 0.01, 10.0),
+            logarithmic("tracking", 1e-4, 1.0),
+            logarithmic("root", 0.03, 30.0),
+            logarithmic("shoulder", 0.03, 3.0),
+            logarithmic("elbow", 0.03, 3.0),
+            logarithmic("neck", 0.03, 10.0),
+            logarithmic("waist", 0.03, 10.0),
+            logarithmic("hip", 0.03, 10.0),
+            logarithmic("knee", 0.03, 10.0),
+            linear("com_ahead", -0.05, 0.03),
+            linear("margin", 0.0, 0.02),
+            linear("pose.knee", -0.35, 0.0),
+            linear("pose.shoulder", -0.2, 0.3),
+            linear("pose.elbow", 0.0, 0.6),
+        ]
+    }
+
+    fn slot(&mut self, name: &str) -> &mut f64 {
+        let g = &mut self.gains;
+        match name {
+            "kl" => &mut g.kl,
+            "dl" => &mut g.dl,
+            "kl_height" => &mut g.kl_height,
+            "dh" => &mut g.dh,
+            "kt" => &mut g.kt,
+            "dt" => &mut g.dt,
+            "angular" => &mut g.angular,
+            "tracking" => &mut g.tracking,
+            "root" => &mut g.root,
+            "margin" => &mut g.margin,
+            "com_ahead" => &mut self.com_ahead,
+            other => match other.strip_prefix("pose.") {
+                Some(joint) => self.pose.entry(joint.to_owned()).or_insert(0.0),
+                None => self.joint_weights.entry(other.to_owned()).or_insert(1.0),
+            },
+        }
+    }
+
+    fn settle(&mut self) {
+        // Feet flat and trunk upright: the ankles and hips share the knees' bend.
+        let knee = *self.slot("pose.knee");
+        *self.slot("pose.hip") = -0.5 * knee;
+        *self.slot("pose.ankle") = -0.5 * knee;
+        let g = &mut self.gains;
+        g.dl_height = 2.0 * g.kl_height.sqrt();
+    }
+}
+
+impl Tunable for StanceSpec {
+    const KIND: &'static str = "stance";
+
+    fn dimensions() -> Vec<Dimension> {
+        vec![
+            linear("com_ahead", -0.05, 0.03),
+            logarithmic("position_gain", 0.2, 10.0),
+            logarithmic("velocity_gain", 0.5, 8.0),
+            logarithmic("bend_gain", 0.1, 30.0),
+            linear("bend_margin", -0.02, 0.1),
+            logarithmic("stiffness", 0.3, 2.5),
+            linear("pose.knee", -0.2, 0.0),
+            linear("pose.elbow", 0.0, 0.4),
+        ]
+    }
+
+    fn slot(&mut self, name: &str) -> &mut f64 {
+        match name {
+            "com_ahead" => &mut self.com_ahead,
+            "position_gain" => &mut self.position_gain,
+            "velocity_gain" => &mut self.velocity_gain,
+            "bend_gain" => &mut self.bend_gain,
+            "bend_margin" => &mut self.bend_margin,
+            "stiffness" => &mut self.stiffness,
+            other => {
+                let joint = other.strip_prefix("pose.").unwrap_or(other);
+                self.pose.entry(joint.to_owned()).or_insert(0.0)
+            }
+        }
+    }
+
+    fn settle(&mut self) {
+        let knee = *self.slot("pose.knee");
+        *self.slot("pose.hip") = -0.5 * knee;
+        *self.slot("pose.ankle") = -0.5 * knee;
+    }
+}
+
+/// The spec at a point of the unit cube.
+#[must_use]
+pub fn at<T: Tunable>(base: &T, point: &[f64]) -> T {
+    let mut spec = base.clone();
+    for (d, u) in T::dimensions().iter().zip(point) {
+        // Five digits are more than the search can tell apart, and read well.
+        let value = d.value(*u);
+        let digits = (4 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 9) as usize;
+        *spec.slot(d.name) = format!("{value:.digits$}").parse().unwrap_or(value);
+    }
+    spec.settle();
+    spec
+}
+
+/// The point of the unit cube that a spec stands at.
+#[must_use]
+pub fn point_of<T: Tunable>(spec: &T) -> Vec<f64> {
+    let mut spec = spec.clone();
+    T::dimensions()
+        .iter()
+        .map(|d| d.unit(*spec.slot(d.name)))
+        .collect()
+}
+
+/// Reads the spec of a controller file.
+///
+/// # Errors
+/// Bad syntax, or another kind of controller.
+pub fn spec_of<T: Tunable>(source: &Source) -> Result<(Contract, T)> {
+    let file: ControllerFile = source.parse()?;
+    if file.kind != T::KIND {
+        return Err(Error::unknown("kind", &file.kind, [T::KIND]));
+    }
+    let inner = Source::new(source.origin.clone(), file.spec.get_ron());
+    Ok((file.contract, inner.parse()?))
+}
+
+#[derive(Serialize)]
+struct WholeFile<'a, T> {
+    kind: &'a str,
+    contract: &'a Contract,
+    spec: &'a T,
+}
+
+/// A controller file in text.
+#[must_use]
+pub fn text_of<T: Tunable>(contract: &Contract, spec: &T, header: &str) -> String {
+    let file = WholeFile {
+        kind: T::KIND,
+        contract,
+        spec,
+    };
+    let pretty = ron::ser::PrettyConfig::new().struct_names(false);
+    let body = options()
+        .to_string_pretty(&file, pretty)
+        .unwrap_or_default();
+    let mut text = String::new();
+    for line in header.lines() {
+        let _ = writeln!(text, "// {line}");
+    }
+    text + &body + "\n"
+}
+
+/// A repertoire with this controller and one that lets go.
+#[must_use]
+pub fn repertoire_with<T: Tunable>(contract: &Contract, spec: &T) -> String {
+    format!(
+        "(name: \"tuned\", fallback: \"rest\", controllers: [Here({}), Here((kind: \"rest\", \
+         contract: (name: \"rest\", weight: 1, precondition: Always)))])",
+        text_of(contract, spec, "")
+    )
+}
+
+/// Searches from a file's own numbers. `watch` sees evaluations and the best so far.
+///
+/// # Errors
+/// An invalid file.
+pub fn search<T: Tunable>(
+    source: &Source,
+    registry: &Registry,
+    pushes: &[Push],
+    search: Search,
+    watch: impl FnMut(usize, &Best),
+) -> Result<(Contract, T, Best)> {
+    let (contract, base) = spec_of::<T>(source)?;
+    let start = point_of(&base);
+    // A first run, so that an invalid file is an error and not a cost.
+    standing::cost(&repertoire_with(&contract, &base), registry, &pushes[..1])?;
+    let cost = |point: &[f64]| {
+        let text = repertoire_with(&contract, &at(&base, point));
+        standing::cost(&text, registry, pushes).unwrap_or(f64::INFINITY)
+    };
+    let best = minimise(&start, search, cost, watch);
+    let spec = at(&base, &best.point);
+    Ok((contract, spec, best))
+}
