@@ -2,6 +2,8 @@
 //! against Lagrange's equations, against finite differences, and by what a free tree conserves.
 #![allow(clippy::unwrap_used)]
 
+#[path = "common/reference.rs"]
+mod reference;
 #[path = "common/tree.rs"]
 mod tree;
 
@@ -13,7 +15,8 @@ use aplomb_framework::state::State;
 use nalgebra::{DMatrix, DVector};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tree::{Reference, angle_row, point, random_state, random_tree};
+use reference::{Reference, angle_row, point, random_state};
+use tree::random_tree;
 
 const G: f64 = 9.81;
 /// Agreement of two exact formulations, relative to the largest entry.
