@@ -277,7 +277,12 @@ impl Scenario {
                 Ok(())
             } else {
                 let needle = field.rsplit('.').next().unwrap_or(field);
-                Err(source.invalid(needle, field, value, format!("{low} to {high}")))
+                Err(Error::Invalid {
+                    place: source.place_of(needle, value),
+                    field: field.to_owned(),
+                    problem: value.to_string(),
+                    accepted: format!("{low} to {high}"),
+                })
             }
         };
         check("duration", self.duration, 1e-3, LONGEST)?;
