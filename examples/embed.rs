@@ -37,10 +37,6 @@ fn main() -> Result<()> {
 
     let (mut shown, mut hit) = (String::new(), false);
     for step in 0..8000 {
-        sensors.time = f64::from(step) * dt;
-        body.sense(&bodies, &colliders, &narrow_phase, dt, &mut sensors);
-        mind.act(&sensors, &mut torques);
-        body.actuate(&mut bodies, &torques);
         pipeline.step(
             gravity,
             &parameters,
@@ -56,6 +52,10 @@ fn main() -> Result<()> {
             &(),
             &(),
         );
+        sensors.time = f64::from(step + 1) * dt;
+        body.sense(&bodies, &colliders, &narrow_phase, dt, &mut sensors);
+        mind.act(&sensors, &mut torques);
+        body.actuate(&mut bodies, &torques);
         let active = mind.active().expect("something is always active");
         let line = format!("{active:8} {}", sensors.posture.name());
         if line != shown {
