@@ -36,6 +36,8 @@ pub use video::mp4;
 
 /// px per SVG unit of PNG files.
 const PNG_SCALE: f64 = 2.0;
+/// m/s², for weights and capture points; recordings do not say theirs.
+const GRAVITY: f64 = 9.81;
 /// What [`write`] accepts.
 const FORMATS: &str = ".svg, .png, .gif, .mp4";
 

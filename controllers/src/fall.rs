@@ -147,14 +147,23 @@ impl Controller for Fall {
             self.is_forward = !self.is_forward;
             self.begin_phase(now);
         }
-        let poses = if self.is_forward { &self.forward } else { &self.backward };
+        let poses = if self.is_forward {
+            &self.forward
+        } else {
+            &self.backward
+        };
         let phase = usize::from(self.landed);
-        let pose = if self.landed { &poses.give } else { &poses.reach };
+        let pose = if self.landed {
+            &poses.give
+        } else {
+            &poses.reach
+        };
         let eased = smoothstep((now.time - self.since) / poses.ramp.max(1e-3));
         for ((target, from), to) in self.target.iter_mut().zip(&self.from).zip(pose) {
             *target = from + eased * (to - from);
         }
-        self.servo.track(now, &self.target, poses.stiffness[phase], torques);
+        self.servo
+            .track(now, &self.target, poses.stiffness[phase], torques);
     }
 
     fn clone_box(&self) -> Box<dyn Controller> {

@@ -33,7 +33,9 @@ pub fn registry() -> Registry {
         .with::<fall::FallSpec>()
         .with::<rest::RestSpec>()
         .with::<pose::PoseSpec>();
-    FILES.iter().fold(registry, |r, (name, text)| r.with_file(name, text))
+    FILES
+        .iter()
+        .fold(registry, |r, (name, text)| r.with_file(name, text))
 }
 
 /// A file of this crate under its own name.

@@ -127,7 +127,13 @@ impl Spec for PoseSpec {
 
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
         let place = contract.name.clone();
-        bounded(&place, "states", self.states.len() as f64, 1.0, MOST_STATES as f64)?;
+        bounded(
+            &place,
+            "states",
+            self.states.len() as f64,
+            1.0,
+            MOST_STATES as f64,
+        )?;
         bounded(&place, "damping", self.damping, 0.0, 1.0)?;
         let joints = model.joint_count();
         let mut pose = vec![0.0; joints];
@@ -143,7 +149,11 @@ impl Spec for PoseSpec {
             let mut until = state.until.clone();
             until.resolve(model)?;
             keys.push(Key {
-                pose: if self.mirror { mirrored(model, &pose) } else { pose.clone() },
+                pose: if self.mirror {
+                    mirrored(model, &pose)
+                } else {
+                    pose.clone()
+                },
                 duration: state.duration,
                 ease: state.ease,
                 until,
@@ -157,7 +167,11 @@ impl Spec for PoseSpec {
             let mut feature = rule.feature.clone();
             feature.resolve(model)?;
             for joint in joints_named(model, &rule.joint)? {
-                let joint = if self.mirror { model.mirrored_joint(joint) } else { joint };
+                let joint = if self.mirror {
+                    model.mirrored_joint(joint)
+                } else {
+                    joint
+                };
                 feedback.push((joint, feature.clone(), rule.gain));
             }
         }
@@ -251,10 +265,13 @@ impl Controller for PoseController {
     }
 
     fn obey(&mut self, command: &aplomb_framework::command::Command) -> Result<bool> {
-        let Some(answer) = self.contract.answer(command) else { return Ok(false) };
+        let Some(answer) = self.contract.answer(command) else {
+            return Ok(false);
+        };
         answer.check(command)?;
         let parameter = |name: &Option<String>| {
-            name.as_ref().map_or(1.0, |n| self.contract.parameter(Some(command), n, 1.0))
+            name.as_ref()
+                .map_or(1.0, |n| self.contract.parameter(Some(command), n, 1.0))
         };
         (self.scale, self.slowness) = (parameter(&self.scaled_by), parameter(&self.slowed_by));
         Ok(true)

@@ -19,7 +19,6 @@ use aplomb_framework::registry::Spec;
 use aplomb_framework::sensors::Sensors;
 use serde::{Deserialize, Serialize};
 
-use crate::balance::soles;
 use crate::servo::Servo;
 use crate::target::{NamedAngles, bounded, joints_named, overlay};
 
@@ -114,7 +113,7 @@ impl Controller for Stance {
 
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
         let spec = &self.spec;
-        let ends = soles(now);
+        let ends = now.base_of_support;
         self.target.copy_from_slice(&self.pose);
         if let Some([rear, front]) = ends {
             let (low, high) = (rear + spec.bend_margin, front - spec.bend_margin);

@@ -108,7 +108,8 @@ pub struct Sensors {
     pub ground_reaction_force: Point,
     /// Centre of pressure under all feet, world x, m; none without load.
     pub cop: Option<f64>,
-    /// Rear and front end of what the feet touch, world x, m; none in the air.
+    /// Rear and front end of the soles of the feet that touch, flat or tilted, world x, m; none in
+    /// the air. (The 2001 paper's support polygon surrounds the feet in contact.)
     pub base_of_support: Option<[f64; 2]>,
     /// Height of the surface last touched, m.
     pub ground: f64,
@@ -146,6 +147,14 @@ impl Sensors {
         };
         sensors.derive();
         sensors
+    }
+
+    /// Rear and front end of what the feet really touch, world x, m: where the centre of pressure
+    /// can be. Shorter than the base of support when a foot stands on its edge.
+    #[must_use]
+    pub fn contact_span(&self) -> Option<[f64; 2]> {
+        let spans = self.feet.iter().filter_map(|f| f.support);
+        spans.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
     }
 
     /// Height of the centre of mass above the ground, m.
@@ -209,14 +218,17 @@ impl Sensors {
         self.angular_momentum = self.kinematics.angular_momentum;
         let (mut force, mut moment) = ([0.0; 2], 0.0);
         let mut support: Option<[f64; 2]> = None;
-        for foot in &self.feet {
-            force[0] += foot.force[0];
-            force[1] += foot.force[1];
-            moment += foot.cop.unwrap_or(0.0) * foot.force[1];
-            support = match (support, foot.support) {
-                (Some(a), Some(b)) => Some([a[0].min(b[0]), a[1].max(b[1])]),
-                (a, b) => a.or(b),
-            };
+        for (foot, contact) in self.model.feet.iter().zip(&self.feet) {
+            force[0] += contact.force[0];
+            force[1] += contact.force[1];
+            moment += contact.cop.unwrap_or(0.0) * contact.force[1];
+            if contact.touching() {
+                for end in [foot.heel, foot.toe] {
+                    let x = self.kinematics.point(foot.link, end)[0];
+                    let [rear, front] = support.unwrap_or([x, x]);
+                    support = Some([rear.min(x), front.max(x)]);
+                }
+            }
         }
         self.ground_reaction_force = force;
         self.base_of_support = support;

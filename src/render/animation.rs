@@ -17,7 +17,7 @@ use super::style::document;
 
 /// Frames that are drawn at a time.
 const BATCH: usize = 32;
-/// Frames whose colours make the palette.
+/// Frames at equal distances, and as many at events, whose colours make the palette.
 const SAMPLES: usize = 12;
 /// For how long the last frame stays before the animation begins anew, hundredths of a s.
 const HOLD: u16 = 100;
@@ -109,6 +109,19 @@ impl<'a> Film<'a> {
         pixels(&document(self.size, self.scene.moving(step, &camera)), 1.0)
     }
 
+    /// Frames that together have all colours: some at equal distances, some at events.
+    fn samples(&self) -> Vec<usize> {
+        let every = self.len().div_ceil(SAMPLES).max(1);
+        let events = &self.trajectory.events;
+        let some = events.iter().step_by(events.len().div_ceil(SAMPLES).max(1));
+        let at = |time: f64| ((time * self.fps).clamp(0.0, 1e12) as usize + 2).min(self.len() - 1);
+        let mut samples: Vec<usize> = (0..self.len()).step_by(every).collect();
+        samples.extend(some.map(|e| at(e.time)));
+        samples.sort_unstable();
+        samples.dedup();
+        samples
+    }
+
     /// Draws several at a time and hands them on in order.
     pub(super) fn each<T: Send>(
         &self,
@@ -143,11 +156,7 @@ pub fn gif(trajectory: &Trajectory, writer: impl Write, options: &AnimationOptio
         );
     }
     let film = Film::new(trajectory, options)?;
-    let every = film.len().div_ceil(SAMPLES).max(1);
-    let samples = (0..film.len())
-        .into_par_iter()
-        .step_by(every)
-        .map(|n| film.frame(n));
+    let samples = film.samples().into_par_iter().map(|n| film.frame(n));
     let palette = Palette::of(&samples.collect::<Result<Vec<_>>>()?);
 
     let (width, height) = (options.width as u16, options.height as u16);

@@ -137,7 +137,8 @@ fn pieces(model: &Model, poses: &Kinematics, limb: &[usize]) -> Vec<Piece> {
         let parent = &model.links[joint.parent];
         let (own, radius) = nearest(&link.shape, [0.0, 0.0]);
         let (others, other_radius) = nearest(&parent.shape, joint.anchor);
-        let thin = 0.6 * radius.min(other_radius);
+        let share = if i == model.head { 0.6 } else { 0.85 };
+        let thin = share * radius.min(other_radius);
         pieces.push(Piece::Stroke([world([0.0, 0.0]), world(own)], thin));
         if limb.contains(&joint.parent) {
             let from = poses.point(joint.parent, others);

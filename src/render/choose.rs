@@ -94,6 +94,10 @@ fn wanted(trajectory: &Trajectory, event: &Event) -> Option<(u8, usize)> {
         EventKind::Switch { .. } => 3,
         _ => return None,
     };
+    let after = event.time > trajectory.duration() + trajectory.header.dt;
+    if after || event.character >= trajectory.models.len() {
+        return None;
+    }
     let late = if rank == 0 { 0.5 * PUSH_TIME } else { 0.0 };
     Some((rank, trajectory.step_at(event.time + late)))
 }
@@ -123,9 +127,22 @@ pub(super) fn shots(trajectory: &Trajectory, count: usize) -> Vec<Shot> {
     events.sort_unstable();
     // A third remains for the motion between the events.
     let most = count.min(2 + 2 * count.saturating_sub(2) / 3);
-    for &(_, step, _) in &events {
-        if fixed.len() < most && fixed.iter().all(|f| f.abs_diff(step) > apart) {
-            fixed.push(step);
+    for &(_, step, event) in &events {
+        let free = |at: &usize| fixed.iter().all(|f| f.abs_diff(*at) > apart);
+        let place = match &trajectory.events[event] {
+            // A new controller may be shown later, while it is still active.
+            Event {
+                kind: EventKind::Switch { to, .. },
+                character,
+                ..
+            } => [0, 1, apart + 1, 2 * apart + 2]
+                .map(|late| (step + late).min(last))
+                .into_iter()
+                .find(|at| free(at) && trajectory.controller(*at, *character) == to),
+            _ => Some(step).filter(free),
+        };
+        if let Some(place) = place.filter(|_| fixed.len() < most) {
+            fixed.push(place);
         }
     }
     fixed.sort_unstable();

@@ -7,12 +7,12 @@ use svg::node::element::Group;
 use super::body::SKINS;
 use super::camera::{Room, Track};
 use super::choose::{Shot, shots, suitable};
-use super::drawable;
 use super::marks::{WEIGHT_ARROW, com_sign, cop_sign, support_sign};
 use super::scene::{Scene, window};
 use super::style::{
     FAINT_INK, FORCE, FRAME, INK, PUSH, arrow, line, px, rectangle, shortened, text, text_width,
 };
+use super::{GRAVITY, drawable};
 
 /// Width of a strip, SVG units.
 pub(super) const WIDTH: f64 = 1080.0;
@@ -68,7 +68,7 @@ pub(super) fn strip(trajectory: &Trajectory, options: &FilmOptions) -> Result<(G
     }
     let rows = shots.len().div_ceil(columns);
     let below = top + rows as f64 * (height + head + GAP) + 10.0;
-    let weight = trajectory.models[options.character].total_mass() * 9.81;
+    let weight = trajectory.models[options.character].total_mass() * GRAVITY;
     let scale = room.camera(0.0, [width, height]).scale;
     group = group.add(legend(below, weight, scale));
     Ok((group, [WIDTH, below + 26.0]))

@@ -59,7 +59,7 @@ pub(super) fn support_sign(from: [f64; 2], to: [f64; 2], size: f64) -> Group {
     Group::new().add(line(a, b, SUPPORT, width))
 }
 
-/// Marks behind the body: base of support and the centre of mass's plumb line.
+/// Marks behind the body: the base of support.
 pub(super) fn behind(moment: &Moment<'_>, camera: &Camera) -> Group {
     let size = 4.5 * camera.mark_size();
     let mut group = Group::new();
@@ -73,7 +73,8 @@ pub(super) fn behind(moment: &Moment<'_>, camera: &Camera) -> Group {
     group
 }
 
-/// Marks before the body: ground reaction force, centre of pressure, centre of mass.
+/// Marks before the body: ground reaction force, centre of pressure, centre of mass with its plumb
+/// line.
 /// `weight` in N.
 pub(super) fn before(moment: &Moment<'_>, weight: f64, camera: &Camera) -> Group {
     let size = 4.5 * camera.mark_size();
@@ -103,15 +104,23 @@ pub(super) fn before(moment: &Moment<'_>, weight: f64, camera: &Camera) -> Group
     group
 }
 
-/// A push's arrow ends at the link it pushes; its impulse in N·s stands at its tail.
-pub(super) fn push(at: [f64; 2], impulse: [f64; 2], opacity: f64, camera: &Camera) -> Group {
+/// A push's arrow ends at the link it pushes; its impulse in N·s stands at its tail. Several at
+/// once, numbered by `place`, are drawn one below the other.
+pub(super) fn push(
+    at: [f64; 2],
+    impulse: [f64; 2],
+    opacity: f64,
+    place: usize,
+    camera: &Camera,
+) -> Group {
     let amount = impulse[0].hypot(impulse[1]);
     if !(amount.is_finite() && amount > 0.0 && at.iter().all(|x| x.is_finite())) {
         return Group::new();
     }
     let size = camera.mark_size();
     let length = (PUSH_ARROW[0] + PUSH_ARROW[1] * amount).min(0.75) * camera.scale;
-    let tip = camera.at(at);
+    let mut tip = camera.at(at);
+    tip[1] += 13.0 * size.max(1.0) * place as f64;
     let (ux, uy) = (impulse[0] / amount, -impulse[1] / amount);
     let tail = [tip[0] - ux * length, tip[1] - uy * length];
     let label = format!("{amount:.0} N·s");

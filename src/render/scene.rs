@@ -5,6 +5,7 @@ use aplomb_framework::model::Shape;
 use aplomb_framework::trajectory::{EventKind, Trajectory};
 use svg::node::element::{Group, SVG};
 
+use super::GRAVITY;
 use super::body::{SKINS, corners, draw, pose};
 use super::camera::Camera;
 use super::marks;
@@ -16,8 +17,6 @@ use super::style::{
 pub(super) const PUSH_TIME: f64 = 0.1;
 /// s in which its arrow fades afterwards, so that it is seen in an animation.
 const FADING: f64 = 0.25;
-/// m/s², for the length of force arrows.
-const GRAVITY: f64 = 9.81;
 
 /// Draws instants of one recording.
 #[derive(Debug)]
@@ -70,7 +69,7 @@ impl<'a> Scene<'a> {
             let weight = model.total_mass() * GRAVITY;
             group = group.add(marks::before(&t.moment(step, who), weight, camera));
         }
-        for (event, opacity) in pushes {
+        for (place, (event, opacity)) in pushes.iter().enumerate() {
             let event = &t.events[*event];
             let EventKind::Push { link, impulse } = &event.kind else {
                 continue;
@@ -81,7 +80,7 @@ impl<'a> Scene<'a> {
                 .and_then(|m| m.link_index(link).ok());
             if let Some(link) = link {
                 let at = poses[event.character].links[link].com;
-                group = group.add(marks::push(at, *impulse, *opacity, camera));
+                group = group.add(marks::push(at, *impulse, *opacity, place, camera));
             }
         }
         group

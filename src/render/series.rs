@@ -3,11 +3,9 @@
 use aplomb_framework::state::wrapped;
 use aplomb_framework::trajectory::Trajectory;
 
+use super::GRAVITY;
 use super::body::pose;
 use super::chart::range;
-
-/// m/s²
-const GRAVITY: f64 = 9.81;
 
 /// A character's numbers as they are drawn; NaN where there are none.
 pub(super) struct Series<'a> {

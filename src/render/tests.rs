@@ -161,7 +161,11 @@ fn frames_are_chosen_at_the_ends_at_events_and_where_much_moves() {
         "{falling} of 12 show the half second of the fall"
     );
     let events: Vec<usize> = shots.iter().flat_map(|s| s.events.clone()).collect();
-    assert_eq!(events, [0, 1, 2, 3], "each event on one frame");
+    assert_eq!(
+        events,
+        [0, 1, 2],
+        "each event on one frame, unless it is after the end"
+    );
     assert_eq!(choose::shots(&t, 1).len(), 1);
     assert_eq!(choose::shots(&recording(3, |_, _| {}), 12).len(), 3);
 }

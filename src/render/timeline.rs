@@ -121,7 +121,7 @@ pub(super) fn event_labels(trajectory: &Trajectory, character: usize, chart: &Ch
     for event in trajectory
         .events
         .iter()
-        .filter(|e| e.character == character)
+        .filter(|e| e.character == character && e.time <= chart.time[1] + 1e-3)
     {
         let Some((full, colour)) = event_text(event) else {
             continue;

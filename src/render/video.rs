@@ -13,10 +13,14 @@ use super::animation::{AnimationOptions, Film};
 /// # Errors
 /// An empty trajectory, options outside what they accept, `ffmpeg` missing or failing.
 pub fn mp4(trajectory: &Trajectory, options: &AnimationOptions) -> Result<Vec<u8>> {
+    encode("ffmpeg", trajectory, options)
+}
+
+fn encode(program: &str, trajectory: &Trajectory, options: &AnimationOptions) -> Result<Vec<u8>> {
     let film = Film::new(trajectory, options)?;
     let folder = tempfile::tempdir().context("no temporary folder for the video")?;
     let path = folder.path().join("video.mp4");
-    let mut child = Command::new("ffmpeg")
+    let mut child = Command::new(program)
         .args(["-nostdin", "-loglevel", "error", "-y"])
         .args(["-f", "rawvideo", "-pix_fmt", "rgba"])
         .args(["-s", &format!("{}x{}", options.width, options.height)])
@@ -57,4 +61,26 @@ pub fn mp4(trajectory: &Trajectory, options: &AnimationOptions) -> Result<Vec<u8
     }
     drawn?;
     std::fs::read(&path).context("ffmpeg left no video")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::tests::recording;
+
+    #[test]
+    fn a_missing_or_failing_encoder_is_named() {
+        let t = recording(100, |_, _| {});
+        let fails = |program| {
+            let error = encode(program, &t, &AnimationOptions::video()).unwrap_err();
+            error.to_string()
+        };
+        let missing = fails("no-such-program-as-ffmpeg");
+        assert!(
+            missing.contains("ffmpeg, which is not installed"),
+            "{missing}"
+        );
+        #[cfg(unix)]
+        assert!(fails("false").contains("ffmpeg failed"));
+    }
 }

@@ -2,10 +2,12 @@
 //!
 //! - [`cma_es`]: bounded minimisation by CMA-ES, parallel and deterministic
 //! - [`dimension`]: what is optimised, mapped to the unit cube
+//! - [`falling`]: how well a falling controller protects
 //! - [`standing`]: how well a standing controller takes pushes at its limit
 //! - [`tune`]: controller file → optimised controller file
 
 pub mod cma_es;
 pub mod dimension;
+pub mod falling;
 pub mod standing;
 pub mod tune;

@@ -54,6 +54,8 @@ pub struct Taken {
     /// Root mean square of the joints' distance from their angles before the push, 3.5 s after it,
     /// rad; 0 if it came down.
     pub slouch: f64,
+    /// Part of the time that not all feet touched.
+    pub lifted: f64,
     /// Mean of the squared joint velocities until then, (rad/s)².
     pub motion: f64,
 }
@@ -71,7 +73,7 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
     run.run(push.at);
     let quiet = run.sensors(0).com_velocity[0].abs() < 0.05;
     run.push(0, &model.links[model.trunk].name, push.impulse)?;
-    let (mut motion, mut steps, mut slouch) = (0.0, 0.0, 0.0);
+    let (mut motion, mut steps, mut slouch, mut lifted) = (0.0, 0.0, 0.0, 0.0);
     let before: Vec<f64> = run.sensors(0).state.angles().to_vec();
     let first = run.actors()[0].mind.active_index();
     while run.time() < push.at + 7.0 {
@@ -79,11 +81,17 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
         let now = run.sensors(0);
         motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
         steps += 1.0;
+        lifted += f64::from(u8::from(!now.feet.iter().all(|f| f.touching())));
         if run.actors()[0].mind.active_index() != first {
             break;
         }
         if now.time < push.at + RECOVERED {
-            let apart = now.state.angles().iter().zip(&before).map(|(a, b)| (a - b).powi(2));
+            let apart = now
+                .state
+                .angles()
+                .iter()
+                .zip(&before)
+                .map(|(a, b)| (a - b).powi(2));
             slouch = (apart.sum::<f64>() / before.len() as f64).sqrt();
         } else if run.outcome(0).standing {
             break;
@@ -95,11 +103,13 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
         slouch,
         after: run.time() - push.at,
         motion: motion / steps,
+        lifted: lifted / steps,
     })
 }
 
 /// Sum over the pushes: 1 for each that is not stood (less the longer it lasted), and a little for
-/// slow recovery, for a pose that is not regained, and for needless motion.
+/// slow recovery, for a pose that is not regained, for
+/// lifted feet and for needless motion.
 ///
 /// # Errors
 /// An invalid repertoire.
@@ -108,9 +118,7 @@ pub fn cost(text: &str, registry: &Registry, pushes: &[Push]) -> Result<f64> {
     for push in pushes {
         let taken = take(text, registry, *push)?;
         sum += if taken.stood {
-            0.03 * taken.after / 7.0
-                + 0.002 * taken.motion.min(20.0)
-                + 0.3 * taken.slouch.min(1.0)
+            0.03 * taken.after / 7.0 + 0.002 * taken.motion.min(20.0) + 0.3 * taken.slouch.min(1.0)
         } else {
             1.0 - 0.3 * (taken.after / 7.0).min(1.0)
         };

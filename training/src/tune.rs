@@ -5,16 +5,16 @@
 use std::fmt::Write;
 
 use aplomb_controllers::balance::BalanceSpec;
+use aplomb_controllers::fall::FallSpec;
 use aplomb_controllers::stance::StanceSpec;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::file::{Source, options};
-use aplomb_framework::registry::{ControllerFile, Registry};
+use aplomb_framework::registry::ControllerFile;
 use aplomb_framework::{Error, Result};
 use serde::Serialize;
 
 use crate::cma_es::{Best, Search, minimise};
 use crate::dimension::{Dimension, linear, logarithmic};
-use crate::standing::{self, Push};
 
 /// A kind of controller whose spec can be optimised.
 pub trait Tunable: Sized + Clone + Serialize + serde::de::DeserializeOwned + Sync {
@@ -42,7 +42,8 @@ impl Tunable for BalanceSpec {
             logarithmic("angular", 0.01, 10.0),
             logarithmic("tracking", 1e-4, 1.0),
             logarithmic("root", 0.03, 30.0),
-            logarithmic("shoulder", 0.03, 3.0),
+            logarithmic("lifted", 1e-4, 1.0),
+            logarithmic("shoulder", 0.03, 10.0),
             logarithmic("elbow", 0.03, 3.0),
             logarithmic("neck", 0.03, 10.0),
             logarithmic("waist", 0.03, 10.0),
@@ -68,6 +69,7 @@ impl Tunable for BalanceSpec {
             "angular" => &mut g.angular,
             "tracking" => &mut g.tracking,
             "root" => &mut g.root,
+            "lifted" => &mut g.lifted,
             "margin" => &mut g.margin,
             "com_ahead" => &mut self.com_ahead,
             other => match other.strip_prefix("pose.") {
@@ -122,6 +124,61 @@ impl Tunable for StanceSpec {
         let knee = *self.slot("pose.knee");
         *self.slot("pose.hip") = -0.5 * knee;
         *self.slot("pose.ankle") = -0.5 * knee;
+    }
+}
+
+impl Tunable for FallSpec {
+    const KIND: &'static str = "fall";
+
+    fn dimensions() -> Vec<Dimension> {
+        vec![
+            linear("forward.reach.waist", -0.6, 0.4),
+            linear("forward.reach.shoulder", 0.6, 2.2),
+            linear("forward.reach.elbow", 0.1, 1.2),
+            linear("forward.reach.hip", -0.2, 1.2),
+            linear("forward.reach.knee", -1.6, -0.1),
+            linear("forward.give.waist", -0.6, 0.4),
+            linear("forward.give.shoulder", 0.6, 2.2),
+            linear("forward.give.elbow", 0.4, 2.2),
+            linear("forward.give.hip", -0.2, 1.2),
+            linear("forward.give.knee", -1.6, -0.1),
+            logarithmic("forward.reach_stiffness", 0.2, 1.2),
+            logarithmic("forward.give_stiffness", 0.1, 1.0),
+            logarithmic("forward.ramp", 0.08, 0.5),
+            linear("backward.reach.waist", -1.2, 0.0),
+            linear("backward.reach.shoulder", -1.0, 0.6),
+            linear("backward.reach.elbow", 0.1, 1.5),
+            linear("backward.reach.hip", 0.2, 2.0),
+            linear("backward.reach.knee", -2.4, -0.3),
+            linear("backward.reach.ankle", -0.4, 0.5),
+            linear("backward.give.waist", -1.2, 0.0),
+            linear("backward.give.shoulder", -1.0, 1.0),
+            linear("backward.give.elbow", 0.1, 2.2),
+            linear("backward.give.hip", 0.2, 2.0),
+            linear("backward.give.knee", -2.4, -0.3),
+            logarithmic("backward.reach_stiffness", 0.2, 1.2),
+            logarithmic("backward.give_stiffness", 0.1, 1.0),
+            logarithmic("backward.ramp", 0.08, 0.6),
+        ]
+    }
+
+    fn slot(&mut self, name: &str) -> &mut f64 {
+        let (way, rest) = match name.strip_prefix("forward.") {
+            Some(rest) => (&mut self.forward, rest),
+            None => (
+                &mut self.backward,
+                name.strip_prefix("backward.").unwrap_or(name),
+            ),
+        };
+        match rest.split_once('.') {
+            Some(("reach", joint)) => way.reach.entry(joint.to_owned()).or_insert(0.0),
+            Some((_, joint)) => way.give.entry(joint.to_owned()).or_insert(0.0),
+            None => match rest {
+                "reach_stiffness" => &mut way.reach_stiffness,
+                "give_stiffness" => &mut way.give_stiffness,
+                _ => &mut way.ramp,
+            },
+        }
     }
 }
 
@@ -188,34 +245,36 @@ pub fn text_of<T: Tunable>(contract: &Contract, spec: &T, header: &str) -> Strin
     text + &body + "\n"
 }
 
-/// A repertoire with this controller and one that lets go.
+/// A repertoire of the shipped `others`, this controller and one that lets go.
 #[must_use]
-pub fn repertoire_with<T: Tunable>(contract: &Contract, spec: &T) -> String {
+pub fn repertoire_with<T: Tunable>(others: &[&str], contract: &Contract, spec: &T) -> String {
+    let files: String = others.iter().map(|o| format!("File(\"{o}\"), ")).collect();
     format!(
-        "(name: \"tuned\", fallback: \"rest\", controllers: [Here({}), Here((kind: \"rest\", \
-         contract: (name: \"rest\", weight: 1, precondition: Always)))])",
+        "(name: \"tuned\", fallback: \"rest\", controllers: [{files}Here({}), \
+         File(\"skills/rest.ron\")])",
         text_of(contract, spec, "")
     )
 }
 
-/// Searches from a file's own numbers. `watch` sees evaluations and the best so far.
+/// Searches from a file's own numbers for the least `cost` of a repertoire in text. `others` are
+/// shipped controllers that come before it in the pool. `watch` sees evaluations and the best.
 ///
 /// # Errors
 /// An invalid file.
 pub fn search<T: Tunable>(
     source: &Source,
-    registry: &Registry,
-    pushes: &[Push],
+    others: &[&str],
+    cost: impl Fn(&str) -> Result<f64> + Sync,
     search: Search,
     watch: impl FnMut(usize, &Best),
 ) -> Result<(Contract, T, Best)> {
     let (contract, base) = spec_of::<T>(source)?;
     let start = point_of(&base);
     // A first run, so that an invalid file is an error and not a cost.
-    standing::cost(&repertoire_with(&contract, &base), registry, &pushes[..1])?;
+    cost(&repertoire_with(others, &contract, &base))?;
     let cost = |point: &[f64]| {
-        let text = repertoire_with(&contract, &at(&base, point));
-        standing::cost(&text, registry, pushes).unwrap_or(f64::INFINITY)
+        let text = repertoire_with(others, &contract, &at(&base, point));
+        cost(&text).unwrap_or(f64::INFINITY)
     };
     let best = minimise(&start, search, cost, watch);
     let spec = at(&base, &best.point);
