@@ -8,13 +8,14 @@
 //! | [`rest`] | `rest` | lets go; the fallback |
 //! | [`pose`] | `pose` | a state machine of target poses, as data |
 //!
-//! They share [`momentum`] (momentum control), [`quadratic_program`] (its solver), [`servo`]
-//! (joint servos) and [`target`] (poses by joint name).
+//! They share [`momentum`] (momentum control), [`problem`] and [`quadratic_program`] (its
+//! program and solver), [`servo`] (joint servos) and [`target`] (poses by joint name).
 
 pub mod balance;
 pub mod fall;
 pub mod momentum;
 pub mod pose;
+pub mod problem;
 pub mod quadratic_program;
 pub mod rest;
 pub mod servo;

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use rapier2d::geometry::ContactPair;
 use rapier2d::prelude::*;
 
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, turned};
 use crate::model::{Model, Shape};
 use crate::sensors::{FootContact, LinkContact, Sensors};
 use crate::state::{State, wrapped};
@@ -169,9 +169,10 @@ impl Body {
         let root = &bodies[self.links[0]];
         let angle = f64::from(root.rotation().angle());
         let origin = root.translation();
-        let com = root.center_of_mass();
         let (v, w) = (root.linvel(), f64::from(root.angvel()));
-        let arm = [f64::from(com.x - origin.x), f64::from(com.y - origin.y)];
+        // The engine's own world centre of mass is not yet known before the first step.
+        let (sin, cos) = angle.sin_cos();
+        let arm = turned([cos, sin], self.model.links[0].com);
         state.q[0] = f64::from(origin.x);
         state.q[1] = f64::from(origin.y);
         state.q[2] = angle;

@@ -70,28 +70,49 @@ impl Source {
         }
     }
 
-    /// `file:line` of the first occurrence of `needle`, or the file alone.
+    /// `file:line` of the first occurrence of `needle`, as a whole word if there is one; or the file
+    /// alone.
     #[must_use]
     pub fn place(&self, needle: &str) -> String {
-        match self.text.find(needle) {
-            Some(at) => {
-                let line = 1 + self.text[..at].matches('\n').count();
-                format!("{}:{line}", self.origin)
-            }
-            None => self.origin.clone(),
+        let found = self.words(needle).next();
+        self.line_at(found.or_else(|| self.text.find(needle)))
+    }
+
+    /// `file:line` of the field of this name that has this value, or of the first of this name.
+    #[must_use]
+    pub fn place_of(&self, field: &str, value: f64) -> String {
+        let has_value = |at: &usize| {
+            let after = self.text[at + field.len()..].trim_start_matches([' ', '"', ':']);
+            let end = after.find([',', ')', '}', '\n']).unwrap_or(after.len());
+            let number = after[..end].trim().parse::<f64>();
+            number.is_ok_and(|n| n == value || (n.is_nan() && value.is_nan()))
+        };
+        match self.words(field).find(has_value) {
+            Some(at) => self.line_at(Some(at)),
+            None => self.place(field),
         }
     }
 
-    /// [`Self::place`] of `needle` after the first occurrence of `section`, if it occurs there.
-    #[must_use]
-    pub fn place_within(&self, section: &str, needle: &str) -> String {
-        let start = self.text.find(section).unwrap_or(0);
-        match self.text[start..].find(needle) {
-            Some(at) => {
-                let line = 1 + self.text[..start + at].matches('\n').count();
-                format!("{}:{line}", self.origin)
-            }
-            None => self.place(needle),
+    /// Where `needle` stands as a whole word.
+    fn words<'a>(&'a self, needle: &'a str) -> impl Iterator<Item = usize> + 'a {
+        let part_of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        self.text
+            .match_indices(needle)
+            .map(|(at, _)| at)
+            .filter(move |at| {
+                !self.text[..*at].ends_with(part_of_name)
+                    && !self.text[at + needle.len()..].starts_with(part_of_name)
+            })
+    }
+
+    fn line_at(&self, at: Option<usize>) -> String {
+        match at {
+            Some(at) => format!(
+                "{}:{}",
+                self.origin,
+                1 + self.text[..at].matches('\n').count()
+            ),
+            None => self.origin.clone(),
         }
     }
 

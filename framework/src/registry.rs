@@ -110,7 +110,7 @@ impl Registry {
             Error::unknown("controller kind", &file.kind, self.kinds.keys().copied()).at(&place)
         })?;
         let mut contract = file.contract.clone();
-        let at = |e: Error| e.at(&format!("{place}: {}", file.contract.name));
+        let at = |e: Error| within(e, &place, &file.contract.name);
         contract.resolve(model).map_err(at)?;
         build(source, &file.spec, contract, model).map_err(at)
     }
@@ -124,11 +124,48 @@ fn build<S: Spec>(
 ) -> Result<Box<dyn Controller>> {
     let text = raw.get_ron();
     let spec: S = options().from_str(text).map_err(|e| {
-        let start = source.text.find(text).unwrap_or(0);
-        let before = &source.text[..start];
+        let before = &source.text[..spec_start(source, text, &contract.name)];
         let line = before.matches('\n').count();
         let column = before.len() - before.rfind('\n').map_or(0, |i| i + 1);
         source.syntax(&e, (line, column))
     })?;
     spec.build(contract, model)
+}
+
+/// The same refusal, said to be of a controller in a file.
+fn within(error: Error, place: &str, controller: &str) -> Error {
+    match error {
+        Error::Invalid {
+            place: inner,
+            field,
+            problem,
+            accepted,
+        } => {
+            let place = if inner.starts_with(controller) {
+                format!("{place}: {inner}")
+            } else {
+                format!("{place}: {controller}: {inner}")
+            };
+            Error::Invalid {
+                place,
+                field,
+                problem,
+                accepted,
+            }
+        }
+        other => other.at(&format!("{place}: {controller}")),
+    }
+}
+
+/// Where the spec with this text begins: behind its controller's name if one does, else anywhere.
+fn spec_start(source: &Source, spec: &str, controller: &str) -> usize {
+    let name = source.text.find(&format!("\"{controller}\"")).unwrap_or(0);
+    let all = || source.text.match_indices(spec).map(|(at, _)| at);
+    let is_spec = |at: &usize| source.text[..*at].trim_end().ends_with("spec:");
+    all()
+        .filter(is_spec)
+        .find(|at| *at > name)
+        .or_else(|| all().find(is_spec))
+        .or_else(|| all().next())
+        .unwrap_or(0)
 }

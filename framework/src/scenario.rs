@@ -276,16 +276,9 @@ impl Scenario {
             if value >= low && value <= high {
                 Ok(())
             } else {
-                let section = field.split(['.', '[']).next().unwrap_or(field);
-                let name = field.rsplit('.').next().unwrap_or(field);
-                let key = format!("{name}:");
-                let needle = if source.text.contains(&key) {
-                    &key
-                } else {
-                    name
-                };
+                let needle = field.rsplit('.').next().unwrap_or(field);
                 Err(Error::Invalid {
-                    place: source.place_within(&format!("{section}:"), needle),
+                    place: source.place_of(needle, value),
                     field: field.to_owned(),
                     problem: value.to_string(),
                     accepted: format!("{low} to {high}"),

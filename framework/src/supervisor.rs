@@ -319,12 +319,15 @@ impl Supervisor {
 
     /// Calls the commanded controller if its pre-condition holds, else reports the refusing clause.
     fn follow(&mut self, now: &Sensors, member: usize, command: &Command) {
-        let refusal = self.pool[member]
-            .controller
-            .contract()
-            .precondition
-            .first_failure(now);
-        let refusal = refusal.map(|r| (r.to_string(), r.value));
+        let controller = &mut self.pool[member].controller;
+        let refusal = match controller.contract().precondition.first_failure(now) {
+            Some(refusal) => Some((refusal.to_string(), refusal.value)),
+            None => match controller.obey(command) {
+                Ok(true) => None,
+                Ok(false) => Some(("declines".to_owned(), None)),
+                Err(e) => Some((e.to_string(), None)),
+            },
+        };
         let (time, text) = (now.time, command.to_string());
         if let Some((clause, value)) = refusal {
             let controller = self.name(member).to_owned();
@@ -387,9 +390,12 @@ impl Controller for Supervisor {
         Box::new(self.clone())
     }
 
+    /// Takes note of the command for the next step. The member that answers to it hears of it only
+    /// if its pre-condition then holds: a refused command leaves no trace.
     fn obey(&mut self, command: &Command) -> Result<bool> {
-        for (i, m) in self.pool.iter_mut().enumerate() {
-            if m.controller.obey(command)? {
+        for (i, m) in self.pool.iter().enumerate() {
+            if let Some(answer) = m.controller.contract().answer(command) {
+                answer.check(command)?;
                 self.pending.push((i, command.clone()));
                 return Ok(true);
             }

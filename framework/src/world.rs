@@ -287,6 +287,9 @@ impl World {
             &(),
             &(),
         );
+        // The search has taken note of bodies that are new without enlisting them for the next
+        // step: left so, what nobody touches would hang in the air for ever.
+        self.bodies.iter_mut().for_each(drop);
     }
 
     /// Brings a character's sensors up to date and returns them.

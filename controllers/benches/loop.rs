@@ -1,0 +1,198 @@
+//! Times of the parts of a control step, and of whole steps.
+#![allow(clippy::unwrap_used)]
+
+use std::sync::Arc;
+
+use aplomb_controllers::momentum::{Formulation, Gains, Momentum, Reference};
+use aplomb_controllers::registry;
+use aplomb_framework::contract::Contract;
+use aplomb_framework::controller::Controller;
+use aplomb_framework::dynamics::Dynamics;
+use aplomb_framework::file::Source;
+use aplomb_framework::model::Model;
+use aplomb_framework::repertoire;
+use aplomb_framework::scenario::Scenario;
+use aplomb_framework::sensors::{Posture, Sensors};
+use aplomb_framework::simulation::Simulation;
+use aplomb_framework::supervisor::Supervisor;
+use divan::counter::ItemsCount;
+use divan::{Bencher, black_box};
+
+fn main() {
+    divan::main();
+}
+
+/// Steps that are timed together.
+const STEPS: u32 = 1000;
+
+fn scenario(pitch: f64, lift: f64) -> Scenario {
+    let mut scenario = Scenario::standing("humanoid", 60.0);
+    (
+        scenario.characters[0].start.pitch,
+        scenario.characters[0].start.lift,
+    ) = (pitch, lift);
+    scenario
+}
+
+/// A simulation that has run for some seconds.
+fn after(seconds: f64, scenario: &Scenario) -> Simulation {
+    let mut simulation = Simulation::new(scenario, &registry()).unwrap();
+    simulation.run(seconds);
+    simulation
+}
+
+/// What the humanoid senses while it recovers from a push.
+fn pushed() -> Sensors {
+    let mut simulation = after(1.0, &scenario(0.0, 0.0));
+    simulation.push(0, "torso", 25.0).unwrap();
+    simulation.run(0.12);
+    simulation.sensors(0).clone()
+}
+
+#[divan::bench(sample_size = 1000)]
+fn dynamics(bencher: Bencher) {
+    let now = pushed();
+    let mut dynamics = Dynamics::new(&now.model);
+    bencher.bench_local(|| dynamics.update(black_box(&now.model), black_box(&now.state), 9.81));
+}
+
+#[divan::bench(sample_size = 1000)]
+fn derived_sensors(bencher: Bencher) {
+    let mut now = pushed();
+    bencher.bench_local(|| black_box(&mut now).derive());
+}
+
+#[divan::bench(args = ["equality", "inequality"], sample_size = 100)]
+fn quadratic_program(bencher: Bencher, formulation: &str) {
+    let formulation = match formulation {
+        "equality" => Formulation::Equality,
+        _ => Formulation::Inequality,
+    };
+    let now = pushed();
+    let joints = now.model.joint_count();
+    let gains = Gains {
+        period: 0.0,
+        ..Gains::default()
+    };
+    let mut momentum = Momentum::new(&now.model, formulation, gains, vec![1.0; joints]);
+    let reference = Reference {
+        com: [now.support_centre().unwrap(), now.model.standing_com()[1]],
+        com_velocity: [0.0; 2],
+        pose: vec![0.0; joints],
+        rates: vec![0.0; joints],
+        pitch: 0.0,
+    };
+    let mut torques = vec![0.0; joints];
+    assert!(momentum.torques(&now, &reference, &mut torques));
+    bencher.bench_local(|| momentum.torques(black_box(&now), &reference, &mut torques));
+}
+
+/// Eight controllers with conditions like the humanoid's: the shipped ones, and such as step, sit
+/// and rise would have.
+fn pool_of_eight(model: &Arc<Model>) -> Supervisor {
+    let shipped = repertoire::load("humanoid", &registry(), model).unwrap();
+    let like = |name: &str, from: &str| -> Box<dyn Controller> {
+        let old = shipped
+            .controllers()
+            .find(|c| c.contract().name == from)
+            .unwrap();
+        let contract = Contract {
+            name: name.to_owned(),
+            commands: Vec::new(),
+            ..old.contract().clone()
+        };
+        Box::new(Member {
+            contract,
+            inner: old.clone_box(),
+        })
+    };
+    let mut pool: Vec<Box<dyn Controller>> = vec![
+        like("step", "balance"),
+        like("recover", "fall"),
+        like("crouch", "balance"),
+        like("roll", "fall"),
+    ];
+    let lead: Vec<_> = shipped.controllers().map(Controller::clone_box).collect();
+    pool.extend(lead);
+    pool.truncate(7);
+    if !pool.iter().any(|c| c.contract().name == "rest") {
+        pool.push(
+            shipped
+                .controllers()
+                .find(|c| c.contract().name == "rest")
+                .unwrap()
+                .clone_box(),
+        );
+    }
+    assert_eq!(pool.len(), 8);
+    Supervisor::new("eight", pool, "rest").unwrap()
+}
+
+/// A controller under another contract.
+#[derive(Debug, Clone)]
+struct Member {
+    contract: Contract,
+    inner: Box<dyn Controller>,
+}
+
+impl Controller for Member {
+    fn contract(&self) -> &Contract {
+        &self.contract
+    }
+    fn enter(&mut self, now: &Sensors) {
+        self.inner.enter(now);
+    }
+    fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
+        self.inner.act(now, torques);
+    }
+    fn clone_box(&self) -> Box<dyn Controller> {
+        Box::new(self.clone())
+    }
+}
+
+#[divan::bench(sample_size = 1000)]
+fn arbitration_of_eight(bencher: Bencher) {
+    let now = pushed();
+    let mind = pool_of_eight(&now.model);
+    bencher.bench_local(|| mind.arbitrate(black_box(&now)));
+}
+
+#[divan::bench(sample_count = 20)]
+fn step_balancing(bencher: Bencher) {
+    let start = after(1.0, &scenario(0.0, 0.0));
+    assert_eq!(start.outcome(0).active, "balance");
+    run(bencher, &start);
+}
+
+#[divan::bench(sample_count = 20)]
+fn step_lying(bencher: Bencher) {
+    let start = after(5.0, &scenario(1.5, 0.0));
+    assert_eq!(
+        (start.outcome(0).posture, &*start.outcome(0).active),
+        (Posture::Supine, "rest")
+    );
+    run(bencher, &start);
+}
+
+fn run(bencher: Bencher, start: &Simulation) {
+    bencher
+        .counter(ItemsCount::new(STEPS))
+        .with_inputs(|| start.clone())
+        .bench_local_refs(|simulation| {
+            for _ in 0..STEPS {
+                simulation.step();
+            }
+        });
+}
+
+/// The engine and sensing alone, with no controller's work to speak of.
+#[divan::bench(sample_count = 20)]
+fn step_at_rest_in_the_air(bencher: Bencher) {
+    const REST: &str =
+        "(name: \"r\", fallback: \"rest\", controllers: [File(\"skills/rest.ron\")])";
+    let model = Model::load("humanoid").unwrap();
+    let source = Source::new("r.ron", REST);
+    let mind = repertoire::build(&source, None, &registry(), &model).unwrap();
+    let start = Simulation::with_minds(&scenario(0.0, 50.0), vec![mind]).unwrap();
+    run(bencher, &start);
+}

@@ -1,0 +1,66 @@
+//! Heap allocations of the loop once it is warm: none of ours.
+//!
+//! The engine (rapier2d 0.36.1) makes eight a step: its list of bodies that were given torques is
+//! dropped at the end of each step and grows anew (three), its narrow phase collects contact pairs
+//! for the solver (three), and its step and its solver make one workspace each.
+#![allow(clippy::unwrap_used)]
+
+use allocation_counter::measure;
+use aplomb_controllers::registry;
+use aplomb_framework::controller::Controller;
+use aplomb_framework::model::Model;
+use aplomb_framework::repertoire;
+use aplomb_framework::scenario::Scenario;
+use aplomb_framework::simulation::Simulation;
+use aplomb_framework::state::State;
+use aplomb_framework::world::{Settings, World};
+
+/// Allocations of the engine a step, in `actuate` and in `step`.
+const ENGINE: [u64; 2] = [3, 5];
+
+#[test]
+fn sensing_and_thinking_allocate_nothing() {
+    let model = Model::load("humanoid").unwrap();
+    let mut mind = repertoire::load("humanoid", &registry(), &model).unwrap();
+    let mut world = World::new(Settings::default());
+    world.spawn(&model, &State::standing(&model));
+    world.detect_contacts();
+    let mut torques = vec![0.0; model.joint_count()];
+    let (mut ours, mut actuate, mut engine) = (0, 0, 0);
+    for step in 0..3000 {
+        let sensing = measure(|| {
+            world.sense(0);
+        });
+        let thinking = measure(|| mind.act(&world.characters()[0].sensors, &mut torques));
+        let acting = measure(|| world.actuate(0, &torques));
+        let stepping = measure(|| world.step());
+        if step >= 2000 {
+            ours += sensing.count_total + thinking.count_total;
+            actuate += acting.count_total;
+            engine += stepping.count_total;
+        }
+    }
+    assert_eq!(mind.active(), Some("balance"));
+    assert_eq!(ours, 0, "sense and act");
+    let [most, steps_most] = ENGINE.map(|n| 1000 * n);
+    assert!(
+        actuate <= most && engine <= steps_most,
+        "actuate {actuate}, step {engine}"
+    );
+}
+
+#[test]
+fn a_step_of_a_simulation_allocates_only_in_the_engine() {
+    let scenario = Scenario::standing("humanoid", 3.0);
+    let mut simulation = Simulation::new(&scenario, &registry()).unwrap();
+    simulation.run(2.0);
+    let events = simulation.events().len();
+    let counted = measure(|| simulation.run(1.0));
+    assert_eq!(simulation.events().len(), events, "a quiet second");
+    let most = 1000 * ENGINE.iter().sum::<u64>();
+    assert!(
+        counted.count_total <= most,
+        "{} in 1000 steps",
+        counted.count_total
+    );
+}
