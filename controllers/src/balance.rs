@@ -21,6 +21,9 @@ use crate::momentum::{Formulation, Gains, Momentum, Reference};
 use crate::servo::Servo;
 use crate::target::{NamedAngles, bounded, overlay};
 
+/// How fast the reference centre of mass moves, m/s.
+const GLIDE: f64 = 0.3;
+
 /// Parameters of [`Balance`] in a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -59,6 +62,8 @@ pub struct Balance {
     /// Height of the centre of mass in the reference pose, m.
     height: f64,
     servo: Servo,
+    /// Of the last step, s.
+    time: f64,
 }
 
 impl Spec for BalanceSpec {
@@ -80,6 +85,7 @@ impl Spec for BalanceSpec {
             ("gains.tracking", g.tracking, 1e-6, 1e6),
             ("gains.root", g.root, 1e-3, 1e3),
             ("gains.feet", g.feet, 1e-3, 1e9),
+            ("gains.lifted", g.lifted, 0.0, 1e9),
             ("gains.feet_damping", g.feet_damping, 0.0, 200.0),
             ("gains.margin", g.margin, 0.0, 0.1),
             ("gains.friction", g.friction, 0.01, 10.0),
@@ -111,6 +117,7 @@ impl Spec for BalanceSpec {
             },
             com_ahead: self.com_ahead,
             servo: Servo::new(model, 0.5, 1.0),
+            time: 0.0,
             contract,
         }))
     }
@@ -134,15 +141,22 @@ impl Controller for Balance {
     fn enter(&mut self, now: &Sensors) {
         self.momentum.reset();
         self.reference.com = now.com;
+        if let Some([rear, front]) = now.base_of_support {
+            let x = &mut self.reference.com[0];
+            *x = x.clamp(rear, front.max(rear));
+        }
+        self.time = now.time;
     }
 
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
-        if let Some([rear, front]) = now.base_of_support {
-            self.reference.com = [
-                0.5 * (rear + front) + self.com_ahead,
-                now.ground + self.height,
-            ];
+        if let Some(centre) = now.support_centre() {
+            // Glides there, so that taking over from another stance is no jerk.
+            let step = GLIDE * (now.time - self.time).clamp(0.0, 0.1);
+            let goal = centre + self.com_ahead;
+            let x = self.reference.com[0];
+            self.reference.com = [x + (goal - x).clamp(-step, step), now.ground + self.height];
         }
+        self.time = now.time;
         let on_ground = now.base_of_support.is_some();
         if !(on_ground && self.momentum.torques(now, &self.reference, torques)) {
             self.servo.track(now, &self.reference.pose, 1.0, torques);

@@ -60,6 +60,8 @@ pub struct Gains {
     pub root: f64,
     /// Weight of the feet's accelerations (inequality formulation).
     pub feet: f64,
+    /// Weight of bringing a foot in the air back beside the others (inequality formulation).
+    pub lifted: f64,
     /// Damping of the feet's motion, 1/s.
     pub feet_damping: f64,
     /// m by which the centre of pressure keeps inside the sole's ends.
@@ -87,6 +89,7 @@ impl Default for Gains {
             tracking: 0.005,
             root: 1.0,
             feet: 1000.0,
+            lifted: 0.01,
             feet_damping: 30.0,
             margin: 0.003,
             friction: 0.8,
@@ -196,7 +199,7 @@ impl Momentum {
     /// one (no foot on the ground, no feasible program) the last solution's are used, or none.
     pub fn torques(&mut self, now: &Sensors, reference: &Reference, torques: &mut [f64]) -> bool {
         self.dynamics.update(&self.model, &now.state, now.gravity);
-        self.feet_jacobians();
+        self.feet_jacobians(now);
         if now.time >= self.due - 1e-9 {
             self.due = now.time + self.gains.period;
             let outcome = match self.formulation {
@@ -222,8 +225,9 @@ impl Momentum {
         }
     }
 
-    fn feet_jacobians(&mut self) {
+    fn feet_jacobians(&mut self, now: &Sensors) {
         let n = self.dynamics.dof();
+        let centre_of_touching = now.support_centre();
         for (f, foot) in self.model.feet.iter().enumerate() {
             let rows = &mut self.feet[3 * f * n..3 * (f + 1) * n];
             let centre = [
@@ -238,8 +242,13 @@ impl Momentum {
             let motion = &self.dynamics.kinematics.links[foot.link];
             let d = self.gains.feet_damping;
             let target = &mut self.feet_target[3 * f..3 * f + 3];
-            target[0] = -d * velocity[0] - bias[0];
-            target[1] = -d * velocity[1] - bias[1];
+            let mut pull = [0.0; 2];
+            if let (false, Some(x)) = (now.feet[f].touching(), centre_of_touching) {
+                let p = self.dynamics.kinematics.point(foot.link, centre);
+                pull = [x - p[0], now.ground - p[1]].map(|gap| 0.25 * d * d * gap);
+            }
+            target[0] = pull[0] - d * velocity[0] - bias[0];
+            target[1] = pull[1] - d * velocity[1] - bias[1];
             // A tilted foot is brought back flat.
             target[2] = -d * motion.rate - 0.25 * d * d * motion.angle.sin();
         }
@@ -359,17 +368,19 @@ impl Momentum {
             for k in 0..3 {
                 let i = dof + 3 * f + k;
                 self.problem.h[i * n + i] += 1e-3;
-                // A foot in the air is left to the tracking.
-                if foot.touching() {
-                    let row = &self.feet[(3 * f + k) * dof..(3 * f + k + 1) * dof];
-                    add_row(
-                        &mut self.problem,
-                        n,
-                        row,
-                        self.feet_target[3 * f + k],
-                        self.gains.feet,
-                    );
-                }
+                let weight = if foot.touching() {
+                    self.gains.feet
+                } else {
+                    self.gains.lifted
+                };
+                let row = &self.feet[(3 * f + k) * dof..(3 * f + k + 1) * dof];
+                add_row(
+                    &mut self.problem,
+                    n,
+                    row,
+                    self.feet_target[3 * f + k],
+                    weight,
+                );
             }
         }
         for i in 0..3 {

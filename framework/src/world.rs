@@ -275,12 +275,14 @@ impl World {
 
     /// Finds contacts without moving anything: for sensing before the first step.
     pub fn detect_contacts(&mut self) {
+        // On copies of what the engine marks as seen: the first step must still find the bodies
+        // new, or it never wakes them.
         CollisionPipeline::new().step(
             self.parameters.prediction_distance(),
-            &mut self.islands,
+            &mut self.islands.clone(),
             &mut self.broad_phase,
             &mut self.narrow_phase,
-            &mut self.bodies,
+            &mut self.bodies.clone(),
             &mut self.colliders,
             &(),
             &(),

@@ -54,6 +54,8 @@ pub struct Taken {
     /// Root mean square of the joints' distance from their angles before the push, 3.5 s after it,
     /// rad; 0 if it came down.
     pub slouch: f64,
+    /// Part of the time that not all feet touched.
+    pub lifted: f64,
     /// Mean of the squared joint velocities until then, (rad/s)².
     pub motion: f64,
 }
@@ -71,7 +73,7 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
     run.run(push.at);
     let quiet = run.sensors(0).com_velocity[0].abs() < 0.05;
     run.push(0, &model.links[model.trunk].name, push.impulse)?;
-    let (mut motion, mut steps, mut slouch) = (0.0, 0.0, 0.0);
+    let (mut motion, mut steps, mut slouch, mut lifted) = (0.0, 0.0, 0.0, 0.0);
     let before: Vec<f64> = run.sensors(0).state.angles().to_vec();
     let first = run.actors()[0].mind.active_index();
     while run.time() < push.at + 7.0 {
@@ -79,6 +81,7 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
         let now = run.sensors(0);
         motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
         steps += 1.0;
+        lifted += f64::from(u8::from(!now.feet.iter().all(|f| f.touching())));
         if run.actors()[0].mind.active_index() != first {
             break;
         }
@@ -100,11 +103,13 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
         slouch,
         after: run.time() - push.at,
         motion: motion / steps,
+        lifted: lifted / steps,
     })
 }
 
 /// Sum over the pushes: 1 for each that is not stood (less the longer it lasted), and a little for
-/// slow recovery, for a pose that is not regained, and for needless motion.
+/// slow recovery, for a pose that is not regained, for
+/// lifted feet and for needless motion.
 ///
 /// # Errors
 /// An invalid repertoire.

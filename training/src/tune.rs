@@ -42,7 +42,8 @@ impl Tunable for BalanceSpec {
             logarithmic("angular", 0.01, 10.0),
             logarithmic("tracking", 1e-4, 1.0),
             logarithmic("root", 0.03, 30.0),
-            logarithmic("shoulder", 0.03, 3.0),
+            logarithmic("lifted", 1e-4, 1.0),
+            logarithmic("shoulder", 0.03, 10.0),
             logarithmic("elbow", 0.03, 3.0),
             logarithmic("neck", 0.03, 10.0),
             logarithmic("waist", 0.03, 10.0),
@@ -68,6 +69,7 @@ impl Tunable for BalanceSpec {
             "angular" => &mut g.angular,
             "tracking" => &mut g.tracking,
             "root" => &mut g.root,
+            "lifted" => &mut g.lifted,
             "margin" => &mut g.margin,
             "com_ahead" => &mut self.com_ahead,
             other => match other.strip_prefix("pose.") {
