@@ -100,10 +100,7 @@ impl Condition {
             Self::Any(any) => {
                 let mut last = refused(None);
                 for c in any {
-                    last = c.first_failure(now);
-                    if last.is_none() {
-                        return None;
-                    }
+                    last = Some(c.first_failure(now)?);
                 }
                 last
             }

@@ -30,7 +30,7 @@ enum Entry {
     /// A controller file, beside the repertoire or shipped.
     File(String),
     /// A controller written in place.
-    Here(ControllerFile),
+    Here(Box<ControllerFile>),
 }
 
 /// Reads a repertoire by path, or a shipped one by its name (`humanoid` is
