@@ -138,7 +138,7 @@ impl Controller for Fall {
     }
 
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
-        if !self.landed && !now.only_feet_touch() && now.contacts.iter().any(|c| c.touching) {
+        if !self.landed && !now.only_feet_support() && now.contacts.iter().any(|c| c.supported) {
             self.landed = true;
             self.begin_phase(now);
         }

@@ -17,6 +17,8 @@ use crate::state::{State, wrapped};
 
 /// A gap below which a link touches, m.
 const TOUCHING: f32 = 3e-3;
+/// A contact supports a link if its normal on the link points up by at least this.
+const SUPPORTING: f32 = 0.5;
 /// Friction of a character's skin. The smaller coefficient of a contact counts, so that in
 /// practice the ground's or prop's does.
 const SKIN_FRICTION: f32 = 2.0;
@@ -123,40 +125,40 @@ impl Body {
         let mut lowest = f64::INFINITY;
         sensors.feet.fill(FootContact::default());
         for (i, collider) in self.colliders.iter().enumerate() {
-            let mut contact = LinkContact::default();
             let foot = self.model.feet.iter().position(|f| f.link == i);
             let middle = foot.map_or(0.0, |f| {
                 let f = &self.model.feet[f];
                 0.5 * (f.heel[0] + f.toe[0])
             });
+            let mut contact = LinkContact::default();
+            let mut sole = FootContact::default();
             let mut moment = 0.0;
             for pair in narrow_phase.contact_pairs_with(*collider) {
-                each_point(pair, *collider, colliders, dt, |at, local, force, dist| {
-                    if dist > TOUCHING && force == [0.0; 2] {
+                each_point(pair, *collider, colliders, dt, |p| {
+                    if p.gap > TOUCHING && p.force == [0.0; 2] {
                         return;
                     }
                     contact.touching = true;
-                    contact.force[0] += force[0];
-                    contact.force[1] += force[1];
-                    moment += force[1] * at[0] - force[0] * (at[1] - 0.0);
-                    lowest = lowest.min(at[1]);
-                    if let Some(foot) = foot.map(|f| &mut sensors.feet[f]) {
-                        let [rear, front] = foot.support.unwrap_or([at[0], at[0]]);
-                        foot.support = Some([rear.min(at[0]), front.max(at[0])]);
-                        foot.heel |= local[0] < middle;
-                        foot.toe |= local[0] >= middle;
-                        // The moment about the surface under the foot, for the centre of pressure.
-                        foot.cop = Some(foot.cop.unwrap_or(0.0) + force[1] * at[0]);
+                    contact.force[0] += p.force[0];
+                    contact.force[1] += p.force[1];
+                    if p.normal_up < SUPPORTING {
+                        return;
                     }
+                    contact.supported = true;
+                    lowest = lowest.min(p.at[1]);
+                    let [rear, front] = sole.support.unwrap_or([p.at[0], p.at[0]]);
+                    sole.support = Some([rear.min(p.at[0]), front.max(p.at[0])]);
+                    sole.heel |= p.in_body[0] < middle;
+                    sole.toe |= p.in_body[0] >= middle;
+                    sole.force[0] += p.force[0];
+                    sole.force[1] += p.force[1];
+                    moment += p.force[1] * p.at[0];
                 });
             }
             sensors.contacts[i] = contact;
-            if let Some(foot) = foot.map(|f| &mut sensors.feet[f]) {
-                foot.force = contact.force;
-                foot.cop = foot
-                    .cop
-                    .filter(|_| contact.force[1] > 1.0)
-                    .map(|m| m / contact.force[1]);
+            if let Some(foot) = foot {
+                sole.cop = (sole.force[1] > 1.0).then(|| moment / sole.force[1]);
+                sensors.feet[foot] = sole;
             }
         }
         if lowest.is_finite() {
@@ -219,17 +221,31 @@ pub(crate) fn outline(shape: &Shape) -> ColliderBuilder {
     }
 }
 
-/// Calls `visit(world point, point in the collider's body frame, force on it, gap)` for every
-/// contact point of a pair.
+/// One point of contact of a collider.
+#[derive(Debug, Clone, Copy)]
+struct ContactPoint {
+    /// World, m.
+    at: [f64; 2],
+    /// In the frame of the collider's body, m.
+    in_body: [f64; 2],
+    /// On the collider, N.
+    force: [f64; 2],
+    /// Upward part of the contact's normal on the collider.
+    normal_up: f32,
+    /// m; negative if it overlaps.
+    gap: f32,
+}
+
+/// Visits every contact point of a pair, seen from one of its colliders.
 fn each_point(
     pair: &ContactPair,
     of: ColliderHandle,
     colliders: &ColliderSet,
     dt: f64,
-    mut visit: impl FnMut([f64; 2], [f64; 2], [f64; 2], f32),
+    mut visit: impl FnMut(ContactPoint),
 ) {
     let first = pair.collider1 == of;
-    let sign = if first { -1.0 } else { 1.0 } / dt;
+    let sign = if first { -1.0 } else { 1.0 };
     let collider = &colliders[of];
     for manifold in pair.solver_manifolds() {
         let n = manifold.data.normal;
@@ -242,16 +258,17 @@ fn each_point(
             };
             let at = collider.position().transform_point(local);
             let force = n * point.data.impulse + t * point.data.tangent_impulse[0];
-            let force = [f64::from(force.x) * sign, f64::from(force.y) * sign];
+            let over = f64::from(sign) / dt;
             let in_body = collider
                 .position_wrt_parent()
                 .map_or(local, |p| p.transform_point(local));
-            visit(
-                [f64::from(at.x), f64::from(at.y)],
-                [f64::from(in_body.x), f64::from(in_body.y)],
-                force,
-                point.dist,
-            );
+            visit(ContactPoint {
+                at: [f64::from(at.x), f64::from(at.y)],
+                in_body: [f64::from(in_body.x), f64::from(in_body.y)],
+                force: [f64::from(force.x) * over, f64::from(force.y) * over],
+                normal_up: sign * n.y,
+                gap: point.dist,
+            });
         }
     }
 }

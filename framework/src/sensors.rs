@@ -10,25 +10,26 @@ use crate::kinematics::Kinematics;
 use crate::model::{Model, Point};
 use crate::state::{State, wrapped};
 
-/// How the character holds itself, from what touches its surroundings and the trunk's pitch.
+/// How the character holds itself: from what supports it (a ball against the chest does not) and
+/// the trunk's pitch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Posture {
-    /// Only feet touch; the centre of mass is above 0.8 of its standing height.
+    /// Only feet support it; the centre of mass is above 0.8 of its standing height.
     Standing,
-    /// Only feet touch; the centre of mass is lower.
+    /// Only feet support it; the centre of mass is lower.
     Crouching,
-    /// Hands touch, and nothing but hands and feet.
+    /// Hands support it, and nothing but hands and feet.
     HandsAndFeet,
-    /// Shanks touch, and nothing but shanks, hands and feet.
+    /// Shanks support it, and nothing but shanks, hands and feet.
     Kneeling,
-    /// Something else touches and the trunk is within 0.9 rad of upright.
+    /// Something else supports it and the trunk is within 0.9 rad of upright.
     Sitting,
-    /// Something else touches and the trunk leans back further: face up.
+    /// Something else supports it and the trunk leans back further: face up.
     Supine,
-    /// Something else touches and the trunk leans forward further: face down.
+    /// Something else supports it and the trunk leans forward further: face down.
     Prone,
-    /// Nothing touches.
+    /// Nothing supports it.
     Airborne,
 }
 
@@ -54,18 +55,20 @@ impl Posture {
 pub struct LinkContact {
     /// Whether it touches (a gap below 3 mm, or any force).
     pub touching: bool,
-    /// Force on the link over the last step, N, world frame.
+    /// Whether something touches it from below: the ground, a step, a crate it lies on.
+    pub supported: bool,
+    /// Force on the link over the last step by all that touches it, N, world frame.
     pub force: Point,
 }
 
 /// Contact of one foot.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FootContact {
-    /// Whether the rear end of the sole touches.
+    /// Whether the rear end of the sole is supported.
     pub heel: bool,
-    /// Whether the front end of the sole touches.
+    /// Whether the front end of the sole is supported.
     pub toe: bool,
-    /// Ground reaction force, N.
+    /// Ground reaction force: of all that supports the foot, N.
     pub force: Point,
     /// Centre of pressure, world x, m; none without load.
     pub cop: Option<f64>,
@@ -74,7 +77,7 @@ pub struct FootContact {
 }
 
 impl FootContact {
-    /// Whether any part of the foot touches.
+    /// Whether any part of the foot is supported.
     #[must_use]
     pub fn touching(&self) -> bool {
         self.support.is_some()
@@ -182,7 +185,7 @@ impl Sensors {
         wrapped(self.kinematics.links[self.model.trunk].angle)
     }
 
-    /// Whether only feet touch and the centre of mass is above 0.9 of its standing height, over
+    /// Whether only feet support it and the centre of mass is above 0.9 of its standing height, over
     /// the base of support and slower than 0.1 m/s: what a run calls standing if it lasts for 1 s.
     #[must_use]
     pub fn stands(&self) -> bool {
@@ -190,17 +193,17 @@ impl Sensors {
             .base_of_support
             .is_some_and(|[rear, front]| self.com[0] >= rear && self.com[0] <= front);
         let speed = self.com_velocity[0].hypot(self.com_velocity[1]);
-        over && self.only_feet_touch()
+        over && self.only_feet_support()
             && self.com_height() > 0.9 * self.model.standing_com()[1]
             && speed < 0.1
     }
 
-    /// Whether something touches, and nothing but feet.
+    /// Whether it is supported, and by nothing but feet.
     #[must_use]
-    pub fn only_feet_touch(&self) -> bool {
+    pub fn only_feet_support(&self) -> bool {
         let mut any = false;
         for (i, c) in self.contacts.iter().enumerate() {
-            if c.touching {
+            if c.supported {
                 if !self.model.is_foot(i) {
                     return false;
                 }
@@ -240,8 +243,12 @@ impl Sensors {
     fn judge_posture(&self) -> Posture {
         let model = &self.model;
         let (mut feet, mut hands, mut shanks, mut rest) = (false, false, false, false);
-        for (i, c) in self.contacts.iter().enumerate().filter(|(_, c)| c.touching) {
-            debug_assert!(c.touching);
+        for (i, _) in self
+            .contacts
+            .iter()
+            .enumerate()
+            .filter(|(_, c)| c.supported)
+        {
             if model.is_foot(i) {
                 feet = true;
             } else if model.is_hand(i) {

@@ -10,7 +10,7 @@ use aplomb_framework::sensors::{Posture, Sensors};
 use aplomb_framework::simulation::Simulation;
 use aplomb_framework::{Result, repertoire};
 
-use crate::standing::Push;
+use crate::standing::{Push, Site};
 
 /// Impacts are averaged over this time, s (a 1 ms peak is the solver's, not the body's).
 const FILTER: f64 = 0.01;
@@ -34,7 +34,7 @@ pub struct Landing {
     pub settled: bool,
 }
 
-/// Pushes of the trunk both ways, evenly over a range of impulses, N·s.
+/// Pushes both ways, of root, trunk and head in turn, evenly over a range of impulses, N·s.
 #[must_use]
 pub fn pushes(low: f64, high: f64, count: usize) -> Vec<Push> {
     let step = (high - low) / (count.max(2) - 1) as f64;
@@ -42,6 +42,7 @@ pub fn pushes(low: f64, high: f64, count: usize) -> Vec<Push> {
         let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         let impulse = sign * (low + step * i as f64);
         Push {
+            site: [Site::Trunk, Site::Root, Site::Head][(i / 2) % 3],
             impulse,
             at: 1.0 + 0.0007 * i as f64,
             friction: [1.0, 0.8, 1.1][i % 3],
@@ -61,7 +62,7 @@ pub fn land(text: &str, registry: &Registry, push: Push) -> Result<Landing> {
     let mind = repertoire::build(&Source::new("tuned", text), None, registry, &model)?;
     let mut run = Simulation::with_minds(&scenario, vec![mind])?;
     run.run(push.at);
-    run.push(0, &model.links[model.trunk].name, push.impulse)?;
+    run.push(0, push.site.link(&model), push.impulse)?;
     let mut landing = Landing::default();
     let mut first: Option<bool> = None;
     let (mut head, mut trunk, mut head_before) = (0.0, 0.0, 0.0);

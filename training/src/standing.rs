@@ -4,6 +4,7 @@
 //! then up to 7 s until the character has stood for a second or has come down.
 
 use aplomb_framework::file::Source;
+use aplomb_framework::model::Model;
 use aplomb_framework::registry::Registry;
 use aplomb_framework::scenario::Scenario;
 use aplomb_framework::simulation::Simulation;
@@ -12,9 +13,35 @@ use aplomb_framework::{Result, repertoire};
 /// s after a push at which the pose should be as before.
 const RECOVERED: f64 = 3.5;
 
-/// A push of the trunk over 0.1 s.
+/// Where a push acts: on the centre of mass of a link that every character has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Site {
+    /// The root link, the humanoid's pelvis.
+    Root,
+    /// The trunk.
+    Trunk,
+    /// The head.
+    Head,
+}
+
+impl Site {
+    /// The link's name.
+    #[must_use]
+    pub fn link(self, model: &Model) -> &str {
+        let link = match self {
+            Self::Root => 0,
+            Self::Trunk => model.trunk,
+            Self::Head => model.head,
+        };
+        &model.links[link].name
+    }
+}
+
+/// A push over 0.1 s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Push {
+    /// Where it acts.
+    pub site: Site,
     /// N·s, forward positive.
     pub impulse: f64,
     /// When it begins, s.
@@ -35,6 +62,7 @@ pub fn pushes(forward: [f64; 2], backward: [f64; 2], step: f64) -> Vec<Push> {
             let friction = [1.0, 1.0, 0.9, 1.1][i % 4];
             let impulse = sign * (low + step * i as f64);
             all.push(Push {
+                site: Site::Trunk,
                 impulse,
                 at: 1.0 + phase,
                 friction,
@@ -67,12 +95,12 @@ pub struct Taken {
 pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
     let mut scenario = Scenario::standing("humanoid", 10.0);
     scenario.settings.friction = push.friction;
-    let model = aplomb_framework::model::Model::load("humanoid")?;
+    let model = Model::load("humanoid")?;
     let mind = repertoire::build(&Source::new("tuned", text), None, registry, &model)?;
     let mut run = Simulation::with_minds(&scenario, vec![mind])?;
     run.run(push.at);
     let quiet = run.sensors(0).com_velocity[0].abs() < 0.05;
-    run.push(0, &model.links[model.trunk].name, push.impulse)?;
+    run.push(0, push.site.link(&model), push.impulse)?;
     let (mut motion, mut steps, mut slouch, mut lifted) = (0.0, 0.0, 0.0, 0.0);
     let before: Vec<f64> = run.sensors(0).state.angles().to_vec();
     let first = run.actors()[0].mind.active_index();

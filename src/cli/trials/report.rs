@@ -40,8 +40,18 @@ pub(super) struct Report {
 struct FallsReport {
     forward: Forward,
     backward: Backward,
-    /// m/s, of the falls in which the head touched.
+    #[serde(flatten)]
+    head: Head,
+}
+
+/// The head in falls.
+#[derive(Debug, Serialize)]
+struct Head {
+    /// m/s, of all falls; 0 for those in which the head did not touch.
     median_head_impact_speed: Option<f64>,
+    /// m/s, of the falls in which the head touched.
+    median_head_hit_speed: Option<f64>,
+    /// Falls in which the head touched.
     head_hits: u64,
 }
 
@@ -49,16 +59,16 @@ struct FallsReport {
 struct Forward {
     count: u64,
     hands_first: u64,
-    median_head_impact_speed: Option<f64>,
-    head_hits: u64,
+    #[serde(flatten)]
+    head: Head,
 }
 
 #[derive(Debug, Serialize)]
 struct Backward {
     count: u64,
     hands_or_seat_first: u64,
-    median_head_impact_speed: Option<f64>,
-    head_hits: u64,
+    #[serde(flatten)]
+    head: Head,
 }
 
 #[derive(Debug, Serialize)]
@@ -100,25 +110,43 @@ fn wilson(hits: u64, count: u64) -> [f64; 2] {
     [low / scale, high / scale]
 }
 
+impl Head {
+    fn new(falls: u64, hits: &[f64]) -> Self {
+        let mut all = hits.to_vec();
+        all.resize((falls as usize).max(hits.len()), 0.0);
+        Self {
+            median_head_impact_speed: median(&all),
+            median_head_hit_speed: median(hits),
+            head_hits: hits.len() as u64,
+        }
+    }
+
+    fn text(&self) -> String {
+        match (self.median_head_impact_speed, self.median_head_hit_speed) {
+            (Some(all), Some(hits)) => format!(
+                "head touched in {} at {hits:.2} m/s (median; {all:.2} over all falls)",
+                self.head_hits
+            ),
+            _ => "head never touched".to_owned(),
+        }
+    }
+}
+
 impl FallsReport {
     fn new(forward: &Falls, backward: &Falls) -> Self {
-        let hits = |f: &Falls| f.head_speeds.len() as u64;
-        let speeds = [&forward.head_speeds[..], &backward.head_speeds].concat();
+        let hits = [&forward.head_speeds[..], &backward.head_speeds].concat();
         Self {
             forward: Forward {
                 count: forward.count,
                 hands_first: forward.broken_well,
-                median_head_impact_speed: median(&forward.head_speeds),
-                head_hits: hits(forward),
+                head: Head::new(forward.count, &forward.head_speeds),
             },
             backward: Backward {
                 count: backward.count,
                 hands_or_seat_first: backward.broken_well,
-                median_head_impact_speed: median(&backward.head_speeds),
-                head_hits: hits(backward),
+                head: Head::new(backward.count, &backward.head_speeds),
             },
-            median_head_impact_speed: median(&speeds),
-            head_hits: hits(forward) + hits(backward),
+            head: Head::new(forward.count + backward.count, &hits),
         }
     }
 }
@@ -201,23 +229,19 @@ impl Report {
         if forward.count + backward.count == 0 {
             return Ok(());
         }
-        let head = |hits: u64, speed: Option<f64>| match speed {
-            Some(speed) => format!("head touched in {hits}, at {speed:.2} m/s (median)"),
-            None => "head never touched".to_owned(),
-        };
         writeln!(
             out,
             "falls forward        {}: hands first in {}, {}",
             forward.count,
             forward.hands_first,
-            head(forward.head_hits, forward.median_head_impact_speed)
+            forward.head.text()
         )?;
         writeln!(
             out,
             "falls backward       {}: hands or seat first in {}, {}",
             backward.count,
             backward.hands_or_seat_first,
-            head(backward.head_hits, backward.median_head_impact_speed)
+            backward.head.text()
         )?;
         Ok(())
     }

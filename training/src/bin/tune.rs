@@ -56,7 +56,7 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let source = Source::read(Path::new(file))?;
     let kind = source.parse::<ControllerFile>()?.kind;
     let text = if kind == "fall" {
-        let pushes = falling::pushes(*low, *high, 14);
+        let pushes = falling::pushes(*low, *high, 24);
         let cost = |text: &str| falling::cost(text, &registry, &pushes);
         let what = format!("{} pushes of {low} to {high} N·s either way", pushes.len());
         optimise::<FallSpec>(&source, &["skills/balance.ron"], search, &what, cost)?
