@@ -17,7 +17,8 @@ use aplomb_framework::state::State;
 use aplomb_framework::{Result, simulation};
 use serde::{Deserialize, Serialize};
 
-use crate::momentum::{Formulation, Gains, Momentum, Reference};
+use crate::gains::Gains;
+use crate::momentum::{Formulation, Momentum, Reference};
 use crate::servo::Servo;
 use crate::target::{NamedAngles, bounded, overlay};
 
@@ -71,30 +72,8 @@ impl Spec for BalanceSpec {
 
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
         let place = contract.name.clone();
-        let g = &self.gains;
-        for (field, value, low, high) in [
-            ("gains.kl", g.kl, 0.0, 1e4),
-            ("gains.dl", g.dl, 0.0, 1e4),
-            ("gains.kl_height", g.kl_height, 0.0, 1e4),
-            ("gains.dl_height", g.dl_height, 0.0, 1e4),
-            ("gains.dh", g.dh, 0.0, 1e3),
-            ("gains.kt", g.kt, 0.0, 1e4),
-            ("gains.dt", g.dt, 0.0, 1e3),
-            ("gains.linear", g.linear, 1e-6, 1e6),
-            ("gains.angular", g.angular, 0.0, 1e6),
-            ("gains.tracking", g.tracking, 1e-6, 1e6),
-            ("gains.root", g.root, 1e-3, 1e3),
-            ("gains.feet", g.feet, 1e-3, 1e9),
-            ("gains.lifted", g.lifted, 0.0, 1e9),
-            ("gains.feet_damping", g.feet_damping, 0.0, 200.0),
-            ("gains.margin", g.margin, 0.0, 0.1),
-            ("gains.friction", g.friction, 0.01, 10.0),
-            ("gains.strength", g.strength, 0.01, 1.0),
-            ("gains.period", g.period, 0.0, 0.1),
-            ("com_ahead", self.com_ahead, -0.2, 0.2),
-        ] {
-            bounded(&place, field, value, low, high)?;
-        }
+        self.gains.validate(&place)?;
+        bounded(&place, "com_ahead", self.com_ahead, -0.2, 0.2)?;
         let mut pose = vec![0.0; model.joint_count()];
         overlay(model, &self.pose, "pose", [-7.0, 7.0], &mut pose)?;
         let mut weights = vec![1.0; model.joint_count()];

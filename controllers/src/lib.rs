@@ -8,11 +8,12 @@
 //! | [`rest`] | `rest` | lets go; the fallback |
 //! | [`pose`] | `pose` | a state machine of target poses, as data |
 //!
-//! They share [`momentum`] (momentum control), [`problem`] and [`quadratic_program`] (its
+//! They share [`momentum`] (momentum control with its [`gains`]), [`problem`] and [`quadratic_program`] (its
 //! program and solver), [`servo`] (joint servos) and [`target`] (poses by joint name).
 
 pub mod balance;
 pub mod fall;
+pub mod gains;
 pub mod momentum;
 pub mod pose;
 pub mod problem;

@@ -13,14 +13,17 @@
 //!
 //! sensors + [`Reference`] → quadratic program → torques. Nothing is allocated after building.
 
+mod inequality;
+
 use std::sync::Arc;
 
 use aplomb_framework::dynamics::Dynamics;
-use aplomb_framework::model::Model;
-use aplomb_framework::sensors::Sensors;
+use aplomb_framework::model::{Foot, Model, Point};
+use aplomb_framework::sensors::{FootContact, Sensors};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::gains::Gains;
 use crate::quadratic_program::{ActiveSet, Outcome, Problem};
 
 /// Which quadratic program is solved.
@@ -30,73 +33,6 @@ pub enum Formulation {
     Equality,
     /// With contact, torque and range limits as constraints.
     Inequality,
-}
-
-/// Gains and weights; the symbols are the paper's.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Gains {
-    /// k_l, 1/s²: pull of the centre of mass towards its reference.
-    pub kl: f64,
-    /// d_l, 1/s.
-    pub dl: f64,
-    /// The same for its height, 1/s².
-    pub kl_height: f64,
-    /// 1/s
-    pub dl_height: f64,
-    /// Damping of angular momentum, 1/s.
-    pub dh: f64,
-    /// k_t, 1/s²: pull of the joints towards the reference pose.
-    pub kt: f64,
-    /// d_t, 1/s.
-    pub dt: f64,
-    /// β_l: weight of linear momentum.
-    pub linear: f64,
-    /// β_h: weight of angular momentum.
-    pub angular: f64,
-    /// β_t: weight of pose tracking.
-    pub tracking: f64,
-    /// Weight of the root's pitch within the tracking.
-    pub root: f64,
-    /// Weight of the feet's accelerations (inequality formulation).
-    pub feet: f64,
-    /// Weight of bringing a foot in the air back beside the others (inequality formulation).
-    pub lifted: f64,
-    /// Damping of the feet's motion, 1/s.
-    pub feet_damping: f64,
-    /// m by which the centre of pressure keeps inside the sole's ends.
-    pub margin: f64,
-    /// Friction coefficient that is relied on.
-    pub friction: f64,
-    /// Fraction of the muscles' torque that is used.
-    pub strength: f64,
-    /// s between two solutions.
-    pub period: f64,
-}
-
-impl Default for Gains {
-    fn default() -> Self {
-        Self {
-            kl: 60.0,
-            dl: 20.0,
-            kl_height: 60.0,
-            dl_height: 15.0,
-            dh: 4.0,
-            kt: 20.0,
-            dt: 9.0,
-            linear: 10.0,
-            angular: 1.0,
-            tracking: 0.005,
-            root: 1.0,
-            feet: 1000.0,
-            lifted: 0.01,
-            feet_damping: 30.0,
-            margin: 0.003,
-            friction: 0.8,
-            strength: 1.0,
-            period: 0.004,
-        }
-    }
 }
 
 /// What is aimed at.
@@ -118,10 +54,6 @@ pub struct Reference {
 const LEVER: f64 = 0.5;
 /// Keeps the programs strictly convex.
 const RIDGE: f64 = 1e-6;
-/// Rate at which joints are kept from their range's ends, 1/s.
-const RANGE_RATE: f64 = 25.0;
-/// rad from a range's end within which it is a constraint.
-const RANGE_NEAR: f64 = 0.3;
 
 /// The controller's workspace for one character.
 #[derive(Debug, Clone)]
@@ -134,12 +66,12 @@ pub struct Momentum {
     dynamics: Dynamics,
     problem: Problem,
     solver: ActiveSet,
-    /// 3 × dof a foot: x and y of the sole's centre, angle.
+    /// 3 × dof a foot: x and y of its [`pivot`], angle.
     feet: Vec<f64>,
     /// a − J̇q̇ of each foot's three rows.
     feet_target: Vec<f64>,
     acceleration: Vec<f64>,
-    /// (f_x, f_y, moment about the sole's centre) a foot, N and N·m.
+    /// (f_x, f_y, moment about the [`pivot`]) a foot, N and N·m.
     wrench: Vec<f64>,
     /// When the next solution is due, s.
     due: f64,
@@ -230,10 +162,8 @@ impl Momentum {
         let centre_of_touching = now.support_centre();
         for (f, foot) in self.model.feet.iter().enumerate() {
             let rows = &mut self.feet[3 * f * n..3 * (f + 1) * n];
-            let centre = [
-                0.5 * (foot.heel[0] + foot.toe[0]),
-                0.5 * (foot.heel[1] + foot.toe[1]),
-            ];
+            let contact = &now.feet[f];
+            let centre = pivot(foot, contact);
             let (position, angle) = rows.split_at_mut(2 * n);
             self.dynamics.point_jacobian(foot.link, centre, position);
             self.dynamics.angle_jacobian(foot.link, angle);
@@ -243,7 +173,7 @@ impl Momentum {
             let d = self.gains.feet_damping;
             let target = &mut self.feet_target[3 * f..3 * f + 3];
             let mut pull = [0.0; 2];
-            if let (false, Some(x)) = (now.feet[f].touching(), centre_of_touching) {
+            if let (false, Some(x)) = (contact.touching(), centre_of_touching) {
                 let p = self.dynamics.kinematics.point(foot.link, centre);
                 pull = [x - p[0], now.ground - p[1]].map(|gap| 0.25 * d * d * gap);
             }
@@ -357,121 +287,18 @@ impl Momentum {
         }
         true
     }
+}
 
-    fn solve_inequality(&mut self, now: &Sensors, reference: &Reference) -> bool {
-        let (n, dof) = (self.problem.n, self.dynamics.dof());
-        let unit = self.model.total_mass() * now.gravity.max(1.0);
-        // Unknowns of a foot: force over the weight, moment over the weight times 0.1 m.
-        let scale = [unit, unit, 0.1 * unit];
-        self.objective(now, reference);
-        for (f, foot) in now.feet.iter().enumerate() {
-            for k in 0..3 {
-                let i = dof + 3 * f + k;
-                self.problem.h[i * n + i] += 1e-3;
-                let weight = if foot.touching() {
-                    self.gains.feet
-                } else {
-                    self.gains.lifted
-                };
-                let row = &self.feet[(3 * f + k) * dof..(3 * f + k + 1) * dof];
-                add_row(
-                    &mut self.problem,
-                    n,
-                    row,
-                    self.feet_target[3 * f + k],
-                    weight,
-                );
-            }
-        }
-        for i in 0..3 {
-            let row = self.problem.equalities.push_row(-self.dynamics.bias[i]);
-            row[..dof].copy_from_slice(&self.dynamics.mass_matrix[i * dof..(i + 1) * dof]);
-            for k in 0..self.wrench.len() {
-                row[dof + k] = -self.feet[k * dof + i] * scale[k % 3];
-            }
-        }
-        for (f, foot) in now.feet.iter().enumerate() {
-            self.contact_rows(f, foot.heel, foot.toe, dof + 3 * f);
-        }
-        self.torque_rows(scale);
-        let without_ranges = self.problem.inequalities.len();
-        self.range_rows(now);
-        if self.solver.solve(&self.problem) != Outcome::Optimal {
-            // The muscles cannot stop a joint in time: let its range do so.
-            self.problem.inequalities.truncate(without_ranges);
-            if self.solver.solve(&self.problem) != Outcome::Optimal {
-                return false;
-            }
-        }
-        let x = self.solver.x();
-        self.acceleration.copy_from_slice(&x[..dof]);
-        for (k, w) in self.wrench.iter_mut().enumerate() {
-            *w = x[dof + k] * scale[k % 3];
-        }
-        true
-    }
-
-    /// Centre of pressure inside what touches, friction cone; no force from what does not touch.
-    fn contact_rows(&mut self, f: usize, heel: bool, toe: bool, at: usize) {
-        let foot = &self.model.feet[f];
-        let half = 0.5 * (foot.toe[0] - foot.heel[0]);
-        // Moment = (centre of pressure ahead of the sole's centre) × f_y, in units of 0.1 m.
-        let inner = ((half - self.gains.margin) / 0.1).max(1e-3);
-        let low = if heel { -inner } else { 0.98 * inner };
-        let high = if toe { inner } else { -0.98 * inner };
-        if !heel && !toe {
-            for k in 0..3 {
-                self.problem.equalities.push_row(0.0)[at + k] = 1.0;
-            }
-            return;
-        }
-        let mu = self.gains.friction;
-        let rows = &mut self.problem.inequalities;
-        for (fx, fy, moment) in [
-            (0.0, -low, 1.0),
-            (0.0, high, -1.0),
-            (1.0, mu, 0.0),
-            (-1.0, mu, 0.0),
-        ] {
-            let row = rows.push_row(0.0);
-            (row[at], row[at + 1], row[at + 2]) = (fx, fy, moment);
-        }
-    }
-
-    /// |u_x| ≤ what the muscles can do.
-    fn torque_rows(&mut self, scale: [f64; 3]) {
-        let dof = self.dynamics.dof();
-        for (j, joint) in self.model.joints().enumerate() {
-            let limit = self.gains.strength * joint.torque;
-            let i = j + 3;
-            for sign in [1.0, -1.0] {
-                let row = self
-                    .problem
-                    .inequalities
-                    .push_row((-limit + sign * -self.dynamics.bias[i]) / limit);
-                let mass = &self.dynamics.mass_matrix[i * dof..(i + 1) * dof];
-                for (r, m) in row.iter_mut().zip(mass) {
-                    *r = sign * m / limit;
-                }
-                for k in 0..self.wrench.len() {
-                    row[dof + k] = -sign * self.feet[k * dof + i] * scale[k % 3] / limit;
-                }
-            }
-        }
-    }
-
-    /// Joints near the end of their range are slowed down before it: q̈ ≥ −ω² (q − q_min) − 2 ω q̇.
-    fn range_rows(&mut self, now: &Sensors) {
-        let w = RANGE_RATE;
-        for (j, joint) in self.model.joints().enumerate() {
-            let (q, v) = (now.state.q[j + 3], now.state.qdot[j + 3]);
-            let ends = [(1.0, q - joint.range[0]), (-1.0, joint.range[1] - q)];
-            for (sign, gap) in ends.into_iter().filter(|(_, gap)| *gap < RANGE_NEAR) {
-                // Bounded, so that a joint beyond its range is not asked for the impossible.
-                let least = (-w * w * gap - 2.0 * w * sign * v).min(30.0);
-                self.problem.inequalities.push_row(least)[j + 3] = sign;
-            }
-        }
+/// The point of the sole that a foot's rows are about: its centre, or the end that it stands on
+/// when it is tilted, about which it turns.
+fn pivot(foot: &Foot, contact: &FootContact) -> Point {
+    match (contact.heel, contact.toe) {
+        (true, false) => foot.heel,
+        (false, true) => foot.toe,
+        _ => [
+            0.5 * (foot.heel[0] + foot.toe[0]),
+            0.5 * (foot.heel[1] + foot.toe[1]),
+        ],
     }
 }
 
