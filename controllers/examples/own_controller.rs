@@ -1,39 +1,32 @@
 //! A controller of one's own, from type to timeline: `wave` holds still and swings an arm.
 use aplomb_controllers::{registry, servo::Servo};
-use aplomb_framework::{Result, contract::Contract, controller::Controller, model::Model};
-use aplomb_framework::{registry::Spec, scenario::Scenario, simulation::Simulation};
-use aplomb_framework::{sensors::Sensors, trajectory::EventKind};
-use std::sync::Arc;
+use aplomb_framework::prelude::*;
 
+/// Contract, servos, target pose (rad, one a joint), the joint that swings.
 #[derive(Debug, Clone)]
-#[rustfmt::skip]
-struct Wave { contract: Contract, servo: Servo, pose: Vec<f64>, joint: usize, since: f64 }
+struct Wave(Contract, Servo, Vec<f64>, usize);
 
 #[derive(serde::Deserialize)]
-#[rustfmt::skip]
-struct WaveSpec { joint: String }
+struct WaveSpec(String); // in a file: ("shoulder_r")
 
 impl Spec for WaveSpec {
     const KIND: &'static str = "wave";
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
-        let joint = model.joint_index(&self.joint)?; // what can go wrong goes wrong here
-        let (servo, pose) = (Servo::new(model, 1.0, 0.5), vec![0.0; model.joint_count()]);
-        #[rustfmt::skip]
-        let wave = Wave { contract, servo, pose, joint, since: 0.0 };
-        Ok(Box::new(wave))
+        let joint = model.joint_index(&self.0)?; // what can go wrong goes wrong here
+        let (servo, pose) = (Servo::new(model, 1.0, 1.0), vec![0.0; model.joint_count()]);
+        Ok(Box::new(Wave(contract, servo, pose, joint)))
     }
 }
 
 impl Controller for Wave {
     fn contract(&self) -> &Contract {
-        &self.contract
+        &self.0
     }
-    fn enter(&mut self, now: &Sensors) {
-        self.since = now.time;
-    }
+    fn enter(&mut self, _: &Sensors) {} // nothing to forget
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
-        self.pose[self.joint] = 0.8 - 0.8 * (5.0 * (now.time - self.since)).cos(); // rad
-        self.servo.track(now, &self.pose, 1.0, torques);
+        let Self(_, servo, pose, joint) = self;
+        pose[*joint] = 0.8 - 0.8 * (5.0 * now.time).cos();
+        servo.track(now, pose, 1.0, torques); // N·m
     }
     fn clone_box(&self) -> Box<dyn Controller> {
         Box::new(self.clone())
@@ -42,26 +35,24 @@ impl Controller for Wave {
 
 const REPERTOIRE: &str = r#"(name: "waver", fallback: "rest", controllers: [
     File("skills/balance.ron"), File("skills/rest.ron"),
-    Here((kind: "wave", spec: (joint: "shoulder_r"), contract: (name: "wave", weight: 0,
+    Here((kind: "wave", spec: ("shoulder_r"), contract: (name: "wave", weight: 0,
         precondition: Posture([standing]), expected: Posture([standing]),
         postcondition: Posture([standing]), hold: 3.0))), // done after 3 s of it
 ])"#;
 
 fn main() -> Result<()> {
-    let registry = registry()
+    let known = registry()
         .with::<WaveSpec>()
         .with_file("repertoires/waver.ron", REPERTOIRE);
     let mut scenario = Scenario::standing("humanoid", 6.0);
     scenario.characters[0].repertoire = Some("waver".to_owned());
-    let mut simulation = Simulation::new(&scenario, &registry)?;
-    simulation.run(1.0);
+    let mut simulation = Simulation::new(&scenario, &known)?;
     simulation.command(0, "wave")?;
-    simulation.run(5.0);
-    for event in simulation.events() {
-        if let EventKind::Switch { to, why, .. } = &event.kind {
-            println!("{:5.2} s  {to} ({why})", event.time);
-        }
-    }
+    simulation.run(scenario.duration);
+    simulation
+        .events()
+        .iter()
+        .for_each(|e| println!("{:.2} s {:?}", e.time, e.kind));
     assert!(simulation.outcome(0).standing, "still standing");
     Ok(())
 }

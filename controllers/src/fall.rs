@@ -21,6 +21,13 @@ use serde::{Deserialize, Serialize};
 use crate::servo::{Servo, smoothstep};
 use crate::target::{NamedAngles, bounded, overlay};
 
+/// s after the landing for which the limbs hold before they relax.
+const HOLDS: f64 = 0.6;
+/// s that relaxing takes.
+const RELAXES: f64 = 1.0;
+/// Part of the stiffness that is left then.
+const LIMP: f64 = 0.15;
+
 /// One way of falling.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -162,8 +169,13 @@ impl Controller for Fall {
         for ((target, from), to) in self.target.iter_mut().zip(&self.from).zip(pose) {
             *target = from + eased * (to - from);
         }
-        self.servo
-            .track(now, &self.target, poses.stiffness[phase], torques);
+        let mut stiffness = poses.stiffness[phase];
+        if self.landed {
+            // What is left of the fall is over: relax.
+            let relaxed = smoothstep((now.time - self.since - HOLDS) / RELAXES);
+            stiffness *= 1.0 - relaxed * (1.0 - LIMP);
+        }
+        self.servo.track(now, &self.target, stiffness, torques);
     }
 
     fn clone_box(&self) -> Box<dyn Controller> {

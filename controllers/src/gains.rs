@@ -33,6 +33,8 @@ pub struct Gains {
     pub root: f64,
     /// Weight of the feet's accelerations (inequality formulation).
     pub feet: f64,
+    /// Weight of bringing a tilted foot back flat (inequality formulation).
+    pub tilted: f64,
     /// Weight of bringing a foot in the air back beside the others (inequality formulation).
     pub lifted: f64,
     /// Damping of the feet's motion, 1/s.
@@ -62,6 +64,7 @@ impl Default for Gains {
             tracking: 0.005,
             root: 1.0,
             feet: 1000.0,
+            tilted: 10.0,
             lifted: 0.01,
             feet_damping: 30.0,
             margin: 0.003,
@@ -91,6 +94,7 @@ impl Gains {
             ("gains.tracking", self.tracking, 1e-6, 1e6),
             ("gains.root", self.root, 1e-3, 1e3),
             ("gains.feet", self.feet, 1e-3, 1e9),
+            ("gains.tilted", self.tilted, 0.0, 1e9),
             ("gains.lifted", self.lifted, 0.0, 1e9),
             ("gains.feet_damping", self.feet_damping, 0.0, 200.0),
             ("gains.margin", self.margin, 0.0, 0.1),

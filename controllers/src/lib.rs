@@ -49,7 +49,9 @@ macro_rules! shipped {
 const FILES: &[(&str, &str)] = shipped![
     "poses/bow.ron",
     "repertoires/humanoid.ron",
+    "repertoires/paper.ron",
     "skills/balance.ron",
+    "skills/balance_equality.ron",
     "skills/fall.ron",
     "skills/rest.ron",
     "skills/stance.ron",

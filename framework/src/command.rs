@@ -214,7 +214,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(250_000))]
+        #![proptest_config(ProptestConfig::with_cases(500_000))]
 
         #[test]
         fn any_text_is_parsed_or_refused(text in ".{0,40}") {

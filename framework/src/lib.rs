@@ -30,6 +30,7 @@ pub mod file;
 pub mod kinematics;
 pub mod model;
 mod model_file;
+pub mod prelude;
 pub mod registry;
 pub mod repertoire;
 pub mod scenario;

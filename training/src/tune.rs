@@ -1,6 +1,6 @@
-//! Optimises the numbers of a standing controller's file.
+//! Optimises the numbers of a controller's file.
 //!
-//! controller file → dimensions → CMA-ES over pushes → controller file, with seed and figures.
+//! controller file → dimensions → CMA-ES over rollouts → controller file, with seed and cost.
 
 use std::fmt::Write;
 
@@ -42,6 +42,7 @@ impl Tunable for BalanceSpec {
             logarithmic("angular", 0.01, 10.0),
             logarithmic("tracking", 1e-4, 1.0),
             logarithmic("root", 0.03, 30.0),
+            logarithmic("tilted", 1e-2, 1e3),
             logarithmic("lifted", 1e-4, 1.0),
             logarithmic("shoulder", 0.03, 10.0),
             logarithmic("elbow", 0.03, 3.0),
@@ -69,6 +70,7 @@ impl Tunable for BalanceSpec {
             "angular" => &mut g.angular,
             "tracking" => &mut g.tracking,
             "root" => &mut g.root,
+            "tilted" => &mut g.tilted,
             "lifted" => &mut g.lifted,
             "margin" => &mut g.margin,
             "com_ahead" => &mut self.com_ahead,
@@ -279,4 +281,58 @@ pub fn search<T: Tunable>(
     let best = minimise(&start, search, cost, watch);
     let spec = at(&base, &best.point);
     Ok((contract, spec, best))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{falling, standing};
+
+    fn shipped(name: &str) -> Source {
+        aplomb_controllers::registry().file(name).unwrap()
+    }
+
+    #[test]
+    fn a_spec_survives_the_unit_cube_and_its_file() {
+        let (contract, spec) = spec_of::<BalanceSpec>(&shipped("skills/balance.ron")).unwrap();
+        let same = at(&spec, &point_of(&spec));
+        let text = text_of(&contract, &same, "Why.\nHow.");
+        assert!(text.starts_with("// Why.\n// How.\n("), "{text}");
+        let (again, back) = spec_of::<BalanceSpec>(&Source::new("x", text)).unwrap();
+        assert_eq!((again, &back), (contract, &same));
+        for (a, b) in point_of(&back).iter().zip(point_of(&spec)) {
+            assert!((a - b).abs() < 1e-3, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn another_kind_of_controller_is_refused() {
+        let refusal = spec_of::<FallSpec>(&shipped("skills/rest.ron")).unwrap_err();
+        assert!(
+            refusal.to_string().contains("unknown kind 'rest'"),
+            "{refusal}"
+        );
+    }
+
+    #[test]
+    fn light_pushes_are_stood_and_heavy_ones_are_fallen_from() {
+        let registry = aplomb_controllers::registry();
+        let (contract, spec) = spec_of::<BalanceSpec>(&shipped("skills/balance.ron")).unwrap();
+        let text = repertoire_with(&[], &contract, &spec);
+        let push = |impulse| standing::Push {
+            site: standing::Site::Trunk,
+            impulse,
+            at: 1.0,
+            friction: 1.0,
+        };
+        assert!(standing::take(&text, &registry, push(15.0)).unwrap().stood);
+        assert!(!standing::take(&text, &registry, push(120.0)).unwrap().stood);
+        let (contract, spec) = spec_of::<FallSpec>(&shipped("skills/fall.ron")).unwrap();
+        let text = repertoire_with(&["skills/balance.ron"], &contract, &spec);
+        let landing = falling::land(&text, &registry, push(-120.0)).unwrap();
+        assert!(landing.fell && landing.protected, "{landing:?}");
+        let alone = "(name: \"x\", fallback: \"rest\", controllers: [File(\"skills/rest.ron\")])";
+        let limp = falling::land(alone, &registry, push(-120.0)).unwrap();
+        assert!(limp.head_speed > landing.head_speed, "{limp:?} {landing:?}");
+    }
 }

@@ -27,10 +27,10 @@ impl Momentum {
             for k in 0..3 {
                 let i = dof + 3 * f + k;
                 self.problem.h[i * n + i] += 1e-3;
-                let weight = if foot.touching() {
-                    self.gains.feet
-                } else {
-                    self.gains.lifted
+                let weight = match (foot.touching(), foot.heel && foot.toe, k) {
+                    (false, ..) => self.gains.lifted,
+                    (true, false, 2) => self.gains.tilted,
+                    (true, ..) => self.gains.feet,
                 };
                 let row = &self.feet[(3 * f + k) * dof..(3 * f + k + 1) * dof];
                 add_row(

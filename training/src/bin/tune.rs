@@ -64,7 +64,7 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
         let [low2, high2] = rest else {
             return Err(USAGE.into());
         };
-        let pushes = standing::pushes([*low, *high], [*low2, *high2], 4.0);
+        let pushes = standing::pushes([*low, *high], [*low2, *high2], 2.0);
         let cost = |text: &str| standing::cost(text, &registry, &pushes);
         let what = format!(
             "{} pushes of {low} to {high} N·s forward and {low2} to {high2} backward",
