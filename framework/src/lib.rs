@@ -18,13 +18,17 @@
 //! - files → [`registry`] → [`repertoire`] → supervisor; text → [`command`] → supervisor
 //! - [`scenario`] → [`simulation`] → [`trajectory`]
 
+pub mod actor;
 pub mod body;
 pub mod command;
 pub mod condition;
 pub mod contract;
 pub mod controller;
+pub mod decision;
 pub mod dynamics;
 pub mod error;
+pub mod event;
+mod expectation;
 pub mod feature;
 pub mod file;
 pub mod kinematics;
@@ -33,11 +37,15 @@ mod model_file;
 pub mod registry;
 pub mod repertoire;
 pub mod scenario;
+mod scenario_bounds;
+mod schedule;
 pub mod sensors;
 pub mod simulation;
+pub mod start;
 pub mod state;
 pub mod supervisor;
 pub mod trajectory;
+mod trajectory_file;
 pub mod world;
 
 pub use error::{Error, Result};

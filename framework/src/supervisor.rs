@@ -13,12 +13,11 @@
 //! - Polling has no side effect. Ties go to the earlier in the repertoire.
 //! - One controller, the fallback, accepts every state, so that something is always active.
 
-use serde::{Deserialize, Serialize};
-
 use crate::command::Command;
 use crate::condition::Condition;
 use crate::contract::Contract;
 use crate::controller::{Controller, Progress};
+pub use crate::decision::{Bid, Decision, Why};
 use crate::error::{Error, Result};
 use crate::sensors::Sensors;
 
@@ -26,68 +25,6 @@ use crate::sensors::Sensors;
 pub const RECOVERY: f64 = 0.25;
 /// s for which a controller is active before its success is acted on.
 pub const DWELL: f64 = 0.05;
-
-/// Why control changed hands.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Why {
-    /// Nothing was active yet.
-    Start,
-    /// The former controller reached its post-condition.
-    Succeeded,
-    /// The former controller failed; the clause or reason.
-    Failed(String),
-    /// A command called.
-    Command,
-}
-
-/// What one controller said in an arbitration.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Bid {
-    /// Its name.
-    pub controller: String,
-    /// Its suitability; 0 if it refused.
-    pub suitability: u32,
-    /// Why it bid 0.
-    pub refusal: Option<String>,
-}
-
-/// What a supervisor decided, with the time in s.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Decision {
-    /// Control changed hands.
-    Switch {
-        /// s
-        time: f64,
-        /// The former controller; none at the start.
-        from: Option<String>,
-        /// The new one.
-        to: String,
-        /// Why.
-        why: Why,
-        /// What each controller of the pool said.
-        bids: Vec<Bid>,
-    },
-    /// A commanded controller's pre-condition does not hold.
-    Refused {
-        /// s
-        time: f64,
-        /// The command.
-        command: String,
-        /// The controller that answers to it.
-        controller: String,
-        /// The clause that refused.
-        clause: String,
-        /// The value that it refused.
-        value: Option<f64>,
-    },
-    /// The command called its controller.
-    Obeyed {
-        /// s
-        time: f64,
-        /// The command.
-        command: String,
-    },
-}
 
 #[derive(Debug, Clone)]
 struct Member {
