@@ -18,22 +18,24 @@
 //! - files → [`registry`] → [`repertoire`] → supervisor; text → [`command`] → supervisor
 //! - [`scenario`] → [`simulation`] → [`trajectory`]
 
-pub mod actor;
+mod actor;
 pub mod body;
 pub mod command;
 pub mod condition;
 pub mod contract;
 pub mod controller;
-pub mod decision;
+mod decision;
 pub mod dynamics;
 pub mod error;
-pub mod event;
+mod event;
 mod expectation;
 pub mod feature;
 pub mod file;
 pub mod kinematics;
 pub mod model;
 mod model_file;
+mod model_tree;
+mod pool;
 pub mod registry;
 pub mod repertoire;
 pub mod scenario;
@@ -41,11 +43,12 @@ mod scenario_bounds;
 mod schedule;
 pub mod sensors;
 pub mod simulation;
-pub mod start;
+mod start;
 pub mod state;
 pub mod supervisor;
 pub mod trajectory;
 mod trajectory_file;
+mod vocabulary;
 pub mod world;
 
 pub use error::{Error, Result};
