@@ -109,13 +109,11 @@ pub(crate) fn fallback(name: &str, pool: &[Box<dyn Controller>], fallback: &str)
 
 /// What a pool promises as a whole: to accept what any of its controllers accepts, and never to end.
 pub(crate) fn contract(name: &str, pool: &[Box<dyn Controller>]) -> Contract {
-    let of = |f: fn(&Contract) -> Condition| {
-        Condition::Any(pool.iter().map(|c| f(c.contract())).collect())
-    };
+    let preconditions = pool.iter().map(|c| c.contract().precondition.clone());
     Contract {
         name: name.to_owned(),
         weight: pool.iter().map(|c| c.contract().weight).max().unwrap_or(0),
-        precondition: of(|c| c.precondition.clone()),
+        precondition: Condition::Any(preconditions.collect()),
         postcondition: Condition::Never,
         expected: Condition::Always,
         hold: 0.0,
