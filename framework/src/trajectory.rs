@@ -78,8 +78,10 @@ pub struct Moment<'a> {
     pub active: usize,
 }
 
-fn width(models: &[Arc<Model>], props: usize) -> usize {
-    models.iter().map(|m| 2 * m.dof() + EXTRA).sum::<usize>() + 3 * props
+/// Numbers of a row: every character's, then (x, y, angle) of every prop.
+pub fn row_width<'a>(models: impl IntoIterator<Item = &'a Arc<Model>>, props: usize) -> usize {
+    let numbers = |m: &Arc<Model>| 2 * m.dof() + EXTRA;
+    models.into_iter().map(numbers).sum::<usize>() + 3 * props
 }
 
 /// Appends a character's numbers to a row.
@@ -135,7 +137,7 @@ impl Trajectory {
     /// An empty recording.
     #[must_use]
     pub fn new(header: Header, models: Vec<Arc<Model>>) -> Self {
-        let width = width(&models, header.props.len());
+        let width = row_width(&models, header.props.len());
         Self {
             header,
             models,
@@ -185,7 +187,7 @@ impl Trajectory {
     /// A character at a step.
     #[must_use]
     pub fn moment(&self, step: usize, character: usize) -> Moment<'_> {
-        let start = width(&self.models[..character], 0);
+        let start = row_width(&self.models[..character], 0);
         let dof = self.models[character].dof();
         let row = &self.row(step)[start..];
         let (q, rest) = row.split_at(dof);
@@ -207,7 +209,7 @@ impl Trajectory {
     /// (x, y, angle) of a prop at a step.
     #[must_use]
     pub fn prop(&self, step: usize, prop: usize) -> [f32; 3] {
-        let start = width(&self.models, 0) + 3 * prop;
+        let start = row_width(&self.models, prop);
         let row = &self.row(step)[start..start + 3];
         [row[0], row[1], row[2]]
     }
