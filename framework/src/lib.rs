@@ -17,6 +17,11 @@
 //! - state → [`dynamics`] → controllers that need M, h, A and Jacobians
 //! - files → [`registry`] → [`repertoire`] → supervisor; text → [`command`] → supervisor
 //! - [`scenario`] → [`simulation`] → [`trajectory`]
+//!
+//! Files whose items are found elsewhere: `model_file`, `model_tree` (in [`model`]), `vocabulary`
+//! ([`feature`]), `pool`, `decision` ([`supervisor`]), `scenario_bounds` ([`scenario`]), `start`,
+//! `schedule`, `actor`, `expectation` ([`simulation`]), `event`, `trajectory_file`
+//! ([`trajectory`]).
 
 mod actor;
 pub mod body;

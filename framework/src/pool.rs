@@ -62,23 +62,14 @@ impl Member {
 /// [`Error::Invalid`] if a name occurs twice, or the fallback is missing, has weight 0, or does not
 /// accept every state.
 pub(crate) fn fallback(name: &str, pool: &[Box<dyn Controller>], fallback: &str) -> Result<usize> {
-    let invalid = |field: &str, problem: String, accepted: &str| Error::Invalid {
-        place: name.to_owned(),
-        field: field.to_owned(),
-        problem,
-        accepted: accepted.to_owned(),
-    };
     for (i, c) in pool.iter().enumerate() {
         let twin = pool[..i]
             .iter()
             .any(|o| o.contract().name == c.contract().name);
         if twin {
             let problem = format!("'{}' a second time", c.contract().name);
-            return Err(invalid(
-                "controllers",
-                problem,
-                "a name of its own for each controller",
-            ));
+            let accepted = "a name of its own for each controller";
+            return Err(Error::invalid(name, "controllers", problem, accepted));
         }
     }
     let place = pool
@@ -86,11 +77,8 @@ pub(crate) fn fallback(name: &str, pool: &[Box<dyn Controller>], fallback: &str)
         .position(|c| c.contract().name == fallback)
         .ok_or_else(|| {
             let names: Vec<&str> = pool.iter().map(|c| c.contract().name.as_str()).collect();
-            invalid(
-                "fallback",
-                format!("'{fallback}'"),
-                &format!("a controller of the pool: {}", names.join(", ")),
-            )
+            let accepted = format!("a controller of the pool: {}", names.join(", "));
+            Error::invalid(name, "fallback", format!("'{fallback}'"), accepted)
         })?;
     let last = pool[place].contract();
     if last.precondition != Condition::Always
@@ -98,11 +86,9 @@ pub(crate) fn fallback(name: &str, pool: &[Box<dyn Controller>], fallback: &str)
         || last.weight == 0
     {
         let problem = format!("'{fallback}', which does not accept every state");
-        return Err(invalid(
-            "fallback",
-            problem,
-            "a controller with weight above 0 and pre-condition and expected performance Always",
-        ));
+        let accepted =
+            "a controller with weight above 0 and pre-condition and expected performance Always";
+        return Err(Error::invalid(name, "fallback", problem, accepted));
     }
     Ok(place)
 }

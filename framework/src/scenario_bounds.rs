@@ -21,12 +21,9 @@ impl Scenario {
                 Ok(())
             } else {
                 let needle = field.rsplit('.').next().unwrap_or(field);
-                Err(Error::Invalid {
-                    place: source.place_of(needle, value),
-                    field: field.to_owned(),
-                    problem: value.to_string(),
-                    accepted: format!("{low} to {high}"),
-                })
+                let (place, accepted) =
+                    (source.place_of(needle, value), format!("{low} to {high}"));
+                Err(Error::invalid(place, field, value, accepted))
             }
         };
         check("duration", self.duration, 1e-3, LONGEST)?;

@@ -115,12 +115,8 @@ impl Simulation {
     pub fn push(&mut self, character: usize, link: &str, impulse: f64) -> Result<()> {
         let link = self.model(character).link_index(link)?;
         if !impulse.is_finite() {
-            return Err(Error::Invalid {
-                place: "push".to_owned(),
-                field: "impulse".to_owned(),
-                problem: impulse.to_string(),
-                accepted: "a finite number of N·s".to_owned(),
-            });
+            let accepted = "a finite number of N·s";
+            return Err(Error::invalid("push", "impulse", impulse, accepted));
         }
         self.do_push(character, link, impulse, PUSH_DURATION);
         Ok(())
