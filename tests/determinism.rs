@@ -41,7 +41,7 @@ fn a_clone_in_mid_contact_continues_like_its_original() {
     let mut original = fall();
     original.run(IN_CONTACT);
     let touching = original.sensors(0).contacts.iter().filter(|c| c.touching);
-    assert!(touching.count() > 0 && !original.sensors(0).only_feet_touch());
+    assert!(touching.count() > 0 && !original.sensors(0).only_feet_support());
     let mut clone = original.clone();
     original.run(END - IN_CONTACT);
     clone.run(END - IN_CONTACT);

@@ -26,7 +26,7 @@ const HOLDS: f64 = 0.6;
 /// s that relaxing takes.
 const RELAXES: f64 = 1.0;
 /// Part of the stiffness that is left then.
-const LIMP: f64 = 0.15;
+const LIMP: f64 = 0.05;
 
 /// One way of falling.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

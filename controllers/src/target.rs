@@ -46,14 +46,7 @@ pub fn overlay(
             if (joints.len() == 1) != single {
                 continue;
             }
-            if !(*value >= accepted[0] && *value <= accepted[1]) {
-                return Err(Error::Invalid {
-                    place: field.to_owned(),
-                    field: name.clone(),
-                    problem: value.to_string(),
-                    accepted: format!("{} to {}", accepted[0], accepted[1]),
-                });
-            }
+            bounded(field, name, *value, accepted[0], accepted[1])?;
             for joint in joints {
                 all[joint] = *value;
             }
@@ -78,12 +71,8 @@ pub fn bounded(place: &str, field: &str, value: f64, low: f64, high: f64) -> Res
     if value >= low && value <= high {
         return Ok(());
     }
-    Err(Error::Invalid {
-        place: place.to_owned(),
-        field: field.to_owned(),
-        problem: value.to_string(),
-        accepted: format!("{low} to {high}"),
-    })
+    let accepted = format!("{low} to {high}");
+    Err(Error::invalid(place, field, value, accepted))
 }
 
 #[cfg(test)]

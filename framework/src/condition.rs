@@ -7,7 +7,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::feature::Feature;
 use crate::model::Model;
 use crate::sensors::{Posture, Sensors};
@@ -124,12 +124,12 @@ impl Condition {
             Self::Within { feature, min, max } => {
                 feature.resolve(model)?;
                 if min.is_nan() || max.is_nan() || min > max {
-                    return Err(crate::error::Error::Invalid {
-                        place: format!("Within(feature: \"{feature}\")"),
-                        field: "min, max".to_owned(),
-                        problem: format!("{min}, {max}"),
-                        accepted: "two numbers with min ≤ max".to_owned(),
-                    });
+                    return Err(Error::invalid(
+                        format!("Within(feature: \"{feature}\")"),
+                        "min, max",
+                        format!("{min}, {max}"),
+                        "two numbers with min ≤ max",
+                    ));
                 }
             }
             Self::All(list) | Self::Any(list) => {

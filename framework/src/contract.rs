@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::command::{Answer, Command};
 use crate::condition::Condition;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::model::Model;
 
 /// A controller's contract, as data.
@@ -58,12 +58,7 @@ impl Contract {
         self.postcondition.resolve(model)?;
         self.expected.resolve(model)?;
         let invalid = |field: String, problem: String, accepted: &str| {
-            Err(crate::error::Error::Invalid {
-                place: self.name.clone(),
-                field,
-                problem,
-                accepted: accepted.to_owned(),
-            })
+            Err(Error::invalid(&self.name, field, problem, accepted))
         };
         if self.name.is_empty()
             || self

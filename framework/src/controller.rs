@@ -5,9 +5,9 @@ use std::fmt::Debug;
 
 use crate::command::Command;
 use crate::contract::Contract;
+use crate::decision::Decision;
 use crate::error::Result;
 use crate::sensors::Sensors;
-use crate::supervisor::Decision;
 
 /// How an active controller is getting on.
 #[derive(Debug, Clone, PartialEq)]

@@ -92,6 +92,21 @@ impl Error {
         }
     }
 
+    /// An [`Error::Invalid`].
+    pub fn invalid(
+        place: impl Into<String>,
+        field: impl Into<String>,
+        problem: impl ToString,
+        accepted: impl Into<String>,
+    ) -> Self {
+        Self::Invalid {
+            place: place.into(),
+            field: field.into(),
+            problem: problem.to_string(),
+            accepted: accepted.into(),
+        }
+    }
+
     /// The same unknown name, said to stand in the file or field `place`.
     #[must_use]
     pub fn at(self, place: &str) -> Self {

@@ -124,12 +124,7 @@ impl Source {
         problem: impl ToString,
         accepted: impl Into<String>,
     ) -> Error {
-        Error::Invalid {
-            place: self.place(needle),
-            field: field.into(),
-            problem: problem.to_string(),
-            accepted: accepted.into(),
-        }
+        Error::invalid(self.place(needle), field, problem, accepted)
     }
 }
 

@@ -17,28 +17,44 @@
 //! - state → [`dynamics`] → controllers that need M, h, A and Jacobians
 //! - files → [`registry`] → [`repertoire`] → supervisor; text → [`command`] → supervisor
 //! - [`scenario`] → [`simulation`] → [`trajectory`]
+//!
+//! Files whose items are found elsewhere: `model_file`, `model_tree` (in [`model`]), `vocabulary`
+//! ([`feature`]), `pool`, `decision` ([`supervisor`]), `scenario_bounds` ([`scenario`]), `start`,
+//! `schedule`, `actor`, `expectation` ([`simulation`]), `event`, `trajectory_file`
+//! ([`trajectory`]).
 
+mod actor;
 pub mod body;
 pub mod command;
 pub mod condition;
 pub mod contract;
 pub mod controller;
+mod decision;
 pub mod dynamics;
 pub mod error;
+mod event;
+mod expectation;
 pub mod feature;
 pub mod file;
 pub mod kinematics;
 pub mod model;
 mod model_file;
+mod model_tree;
+mod pool;
 pub mod prelude;
 pub mod registry;
 pub mod repertoire;
 pub mod scenario;
+mod scenario_bounds;
+mod schedule;
 pub mod sensors;
 pub mod simulation;
+mod start;
 pub mod state;
 pub mod supervisor;
 pub mod trajectory;
+mod trajectory_file;
+mod vocabulary;
 pub mod world;
 
 pub use error::{Error, Result};

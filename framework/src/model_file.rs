@@ -1,10 +1,13 @@
 //! The schema of a character file, and every bound that a character must keep.
+//!
+//! RON → entries, of which `model_tree` checks that they form a tree → [`Model`].
 
 use serde::Deserialize;
 
 use crate::error::{Error, Result};
 use crate::file::Source;
 use crate::model::{Foot, Hand, Joint, Link, MOST_LINKS, Model, Point, Shape};
+use crate::model_tree;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -36,10 +39,10 @@ struct HandEntry {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct LinkEntry {
-    name: String,
+pub(crate) struct LinkEntry {
+    pub(crate) name: String,
     #[serde(default)]
-    joint: Option<JointEntry>,
+    pub(crate) joint: Option<JointEntry>,
     mass: f64,
     com: Point,
     inertia: f64,
@@ -48,9 +51,9 @@ struct LinkEntry {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct JointEntry {
-    name: String,
-    parent: String,
+pub(crate) struct JointEntry {
+    pub(crate) name: String,
+    pub(crate) parent: String,
     anchor: Point,
     range: [f64; 2],
     torque: f64,
@@ -74,7 +77,7 @@ pub(crate) fn read(source: &Source) -> Result<Model> {
             format!("1 to {MOST_LINKS} links"),
         ));
     }
-    tree(source, &file.links)?;
+    model_tree::check(source, &file.links)?;
     let names: Vec<&str> = file.links.iter().map(|l| l.name.as_str()).collect();
     let find = |field: &str, name: &str| {
         names.iter().position(|n| *n == name).ok_or_else(|| {
@@ -131,95 +134,6 @@ pub(crate) fn read(source: &Source) -> Result<Model> {
         trunk,
         head,
     ))
-}
-
-/// One root, unique names, every parent known, no cycle, parents before their children.
-fn tree(source: &Source, links: &[LinkEntry]) -> Result<()> {
-    let at = |l: &LinkEntry| format!("\"{}\"", l.name);
-    let place_of = |name: &str| links.iter().position(|l| l.name == name);
-    for (i, l) in links.iter().enumerate() {
-        name(source, &format!("links[{i}].name"), &l.name)?;
-        if place_of(&l.name) != Some(i) {
-            return Err(source.invalid(
-                &at(l),
-                format!("links[{i}].name"),
-                format!("'{}' a second time", l.name),
-                "a name of its own for each link",
-            ));
-        }
-        let Some(joint) = &l.joint else { continue };
-        name(source, &format!("links[{i}].joint.name"), &joint.name)?;
-        let twin = links[..i]
-            .iter()
-            .filter_map(|o| o.joint.as_ref())
-            .any(|o| o.name == joint.name);
-        if twin {
-            return Err(source.invalid(
-                &format!("\"{}\"", joint.name),
-                format!("links[{i}].joint.name"),
-                format!("'{}' a second time", joint.name),
-                "a name of its own for each joint",
-            ));
-        }
-        if place_of(&joint.parent).is_none() {
-            let field = format!("{}: links[{i}].joint.parent", source.place(&at(l)));
-            return Err(Error::unknown(
-                "link",
-                &joint.parent,
-                links.iter().map(|l| l.name.as_str()),
-            )
-            .at(&field));
-        }
-    }
-    // Cycles are looked for before the root, since a cyclic tree often has none.
-    for start in 0..links.len() {
-        let mut here = start;
-        let mut path = vec![links[start].name.as_str()];
-        while let Some(parent) = links[here].joint.as_ref().and_then(|j| place_of(&j.parent)) {
-            path.push(&links[parent].name);
-            if parent == start {
-                return Err(source.invalid(
-                    &at(&links[start]),
-                    "links",
-                    format!("a cycle ({})", path.join(" → ")),
-                    "a tree with one root",
-                ));
-            }
-            if path.len() > links.len() {
-                break; // leads into a cycle that does not hold `start`; its own members report it
-            }
-            here = parent;
-        }
-    }
-    let roots: Vec<&str> = links
-        .iter()
-        .filter(|l| l.joint.is_none())
-        .map(|l| l.name.as_str())
-        .collect();
-    if roots.len() != 1 {
-        return Err(source.invalid(
-            "links",
-            "links",
-            format!("a forest with roots [{}]", roots.join(", ")),
-            "exactly one link without a joint, the root",
-        ));
-    }
-    for (i, l) in links.iter().enumerate() {
-        let late = l
-            .joint
-            .as_ref()
-            .and_then(|j| place_of(&j.parent))
-            .is_some_and(|p| p >= i);
-        if late || (i == 0) != l.joint.is_none() {
-            return Err(source.invalid(
-                &at(l),
-                format!("links[{i}]"),
-                format!("'{}' before its parent", l.name),
-                "the root first and every parent before its children",
-            ));
-        }
-    }
-    Ok(())
 }
 
 fn link(source: &Source, entry: &LinkEntry, names: &[&str]) -> Result<Link> {
@@ -288,7 +202,7 @@ fn joint(source: &Source, entry: &JointEntry, names: &[&str]) -> Result<Joint> {
     })
 }
 
-fn quoted(name: &str) -> String {
+pub(crate) fn quoted(name: &str) -> String {
     format!("\"{name}\"")
 }
 
@@ -308,7 +222,7 @@ fn point(source: &Source, field: &str, who: &str, p: Point) -> Result<()> {
     }
 }
 
-fn name(source: &Source, field: &str, name: &str) -> Result<()> {
+pub(crate) fn name(source: &Source, field: &str, name: &str) -> Result<()> {
     let fine = !name.is_empty()
         && name.len() <= 64
         && name

@@ -133,28 +133,16 @@ fn build<S: Spec>(
 }
 
 /// The same refusal, said to be of a controller in a file.
-fn within(error: Error, place: &str, controller: &str) -> Error {
-    match error {
-        Error::Invalid {
-            place: inner,
-            field,
-            problem,
-            accepted,
-        } => {
-            let place = if inner.starts_with(controller) {
-                format!("{place}: {inner}")
-            } else {
-                format!("{place}: {controller}: {inner}")
-            };
-            Error::Invalid {
-                place,
-                field,
-                problem,
-                accepted,
-            }
-        }
-        other => other.at(&format!("{place}: {controller}")),
-    }
+fn within(mut error: Error, place: &str, controller: &str) -> Error {
+    let Error::Invalid { place: inner, .. } = &mut error else {
+        return error.at(&format!("{place}: {controller}"));
+    };
+    *inner = if inner.starts_with(controller) {
+        format!("{place}: {inner}")
+    } else {
+        format!("{place}: {controller}: {inner}")
+    };
+    error
 }
 
 /// Where the spec with this text begins: behind its controller's name if one does, else anywhere.

@@ -59,23 +59,11 @@ pub fn build(
     for (place, controller) in parts(source, &file, folder, registry)? {
         pool.push(registry.build(&place, &controller, model)?);
     }
-    Supervisor::new(&file.name, pool, &file.fallback).map_err(|e| match e {
-        Error::Invalid {
-            field,
-            problem,
-            accepted,
-            ..
-        } => {
-            let place = source.place(&field);
-            Error::Invalid {
-                place,
-                field,
-                problem,
-                accepted,
-            }
-        }
-        other => other,
-    })
+    let mut mind = Supervisor::new(&file.name, pool, &file.fallback);
+    if let Err(Error::Invalid { place, field, .. }) = &mut mind {
+        *place = source.place(field);
+    }
+    mind
 }
 
 /// The controller files of a repertoire, in its order, as they stand: not built for any character.

@@ -5,21 +5,20 @@
 
 use std::sync::Arc;
 
+pub use crate::actor::{Actor, Outcome};
 use crate::controller::Controller;
 use crate::error::{Error, Result};
-use crate::kinematics::Kinematics;
-use crate::model::{Model, Shape};
+use crate::event::{Event, EventKind};
+use crate::model::Model;
 use crate::registry::Registry;
 use crate::repertoire;
-use crate::scenario::{Expectation, Happening, Scenario, Start};
-use crate::sensors::{Posture, Sensors};
-use crate::state::State;
-use crate::supervisor::{Decision, Supervisor, Why};
-use crate::trajectory::{Cast, Digest, Event, EventKind, Header, Trajectory, push_character};
+use crate::scenario::{Expectation, Happening, PUSH_DURATION, Scenario};
+use crate::schedule::{Deed, Schedule, Timed};
+use crate::sensors::Sensors;
+pub use crate::start::{put_on_ground, start_state};
+use crate::supervisor::Supervisor;
+use crate::trajectory::{Cast, Digest, Header, Trajectory, push_character};
 use crate::world::World;
-
-/// s for which a character must stand to be called standing.
-const STANDING_FOR: f64 = 1.0;
 
 /// One step of the whole loop for one character: sense, think, actuate. Returns what was sensed.
 /// The world is stepped by the caller, once for all characters.
@@ -35,62 +34,12 @@ pub fn tick<'a>(
     &world.characters()[character].sensors
 }
 
-/// A character's mind and what is known of its run so far.
-#[derive(Debug, Clone)]
-pub struct Actor {
-    /// The supervisor of its repertoire.
-    pub mind: Supervisor,
-    /// As of the last step, N·m.
-    pub torques: Vec<f64>,
-    /// Largest torque of each joint so far, as applied, N·m.
-    pub peak_torque: Vec<f64>,
-    /// Since when it has stood without a break, s.
-    standing_since: Option<f64>,
-    /// Whether it is down: something other than feet has touched since it last stood.
-    down: bool,
-    posture_seen: [Option<f64>; 8],
-}
-
-/// How a run ended for one character.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
-    /// Stood for the last second: only feet on the ground, the centre of mass above 0.9 of its
-    /// standing height, over the base of support, slower than 0.1 m/s.
-    pub standing: bool,
-    /// The active controller.
-    pub active: String,
-    /// Posture.
-    pub posture: Posture,
-    /// Centre of mass, m.
-    pub com: [f64; 2],
-    /// Its velocity, m/s.
-    pub com_velocity: [f64; 2],
-}
-
-#[derive(Debug, Clone)]
-enum Deed {
-    Push {
-        link: usize,
-        impulse: f64,
-        over: f64,
-    },
-    Command(String),
-}
-
-#[derive(Debug, Clone)]
-struct Timed {
-    time: f64,
-    character: usize,
-    deed: Deed,
-}
-
 /// A run in progress.
 #[derive(Debug, Clone)]
 pub struct Simulation {
     world: World,
     actors: Vec<Actor>,
-    /// By time, the next last.
-    schedule: Vec<Timed>,
+    schedule: Schedule,
     events: Vec<Event>,
     digest: Digest,
     row: Vec<f32>,
@@ -135,7 +84,7 @@ impl Simulation {
         let mut simulation = Self {
             world,
             actors,
-            schedule: Vec::new(),
+            schedule: Schedule::default(),
             events: Vec::new(),
             digest: Digest::default(),
             row: Vec::new(),
@@ -152,39 +101,10 @@ impl Simulation {
     /// # Errors
     /// An unknown link, a malformed command or one that nobody answers to.
     pub fn schedule(&mut self, scenario: &Scenario, event: &Happening) -> Result<()> {
-        let timed = match event {
-            Happening::Push {
-                at,
-                link,
-                impulse,
-                over,
-                character,
-            } => Timed {
-                time: scenario.number(at)?,
-                character: *character,
-                deed: Deed::Push {
-                    link: self.model(*character).link_index(link)?,
-                    impulse: scenario.number(impulse)?,
-                    over: *over,
-                },
-            },
-            Happening::Command {
-                at,
-                text,
-                character,
-            } => {
-                // A trial on a clone: commands that nobody answers to are found before the run.
-                self.actors[*character].mind.clone().command(text)?;
-                Timed {
-                    time: scenario.number(at)?,
-                    character: *character,
-                    deed: Deed::Command(text.clone()),
-                }
-            }
-        };
-        // Before its equals, which are then taken from the end first: first scheduled, first done.
-        let place = self.schedule.partition_point(|t| t.time > timed.time);
-        self.schedule.insert(place, timed);
+        let character = event.character();
+        let mind = &self.actors[character].mind;
+        let timed = Timed::new(event, scenario, self.model(character), mind)?;
+        self.schedule.add(timed);
         Ok(())
     }
 
@@ -195,14 +115,10 @@ impl Simulation {
     pub fn push(&mut self, character: usize, link: &str, impulse: f64) -> Result<()> {
         let link = self.model(character).link_index(link)?;
         if !impulse.is_finite() {
-            return Err(Error::Invalid {
-                place: "push".to_owned(),
-                field: "impulse".to_owned(),
-                problem: impulse.to_string(),
-                accepted: "a finite number of N·s".to_owned(),
-            });
+            let accepted = "a finite number of N·s";
+            return Err(Error::invalid("push", "impulse", impulse, accepted));
         }
-        self.do_push(character, link, impulse, 0.1);
+        self.do_push(character, link, impulse, PUSH_DURATION);
         Ok(())
     }
 
@@ -211,28 +127,20 @@ impl Simulation {
     /// # Errors
     /// A malformed command, or one that nobody answers to, with the nearest name.
     pub fn command(&mut self, character: usize, text: &str) -> Result<()> {
-        let time = self.world.time();
-        self.actors[character].mind.command(text).inspect_err(|e| {
+        let given = self.actors[character].mind.command(text);
+        given.inspect_err(|e| {
             let kind = EventKind::Command {
                 text: text.to_owned(),
                 accepted: false,
             };
-            self.events.push(Event {
-                time,
-                character,
-                kind,
-            });
+            self.note(character, kind);
             let kind = EventKind::Refused {
                 command: text.to_owned(),
                 controller: None,
                 clause: e.to_string(),
                 value: None,
             };
-            self.events.push(Event {
-                time,
-                character,
-                kind,
-            });
+            self.note(character, kind);
         })
     }
 
@@ -262,6 +170,14 @@ impl Simulation {
             t.events = self.events.clone();
             t
         })
+    }
+
+    /// The recording with all events, of a run that goes no further.
+    #[must_use]
+    pub fn into_recording(self) -> Option<Trajectory> {
+        let mut recording = self.recording?;
+        recording.events = self.events;
+        Some(recording)
     }
 
     fn controllers(&self, character: usize) -> Vec<String> {
@@ -320,20 +236,18 @@ impl Simulation {
     /// One step: what is due happens, every character senses and thinks, the world moves.
     pub fn step(&mut self) {
         let due = self.world.time() + 0.5 * self.world.settings().dt;
-        while self.schedule.last().is_some_and(|t| t.time < due) {
-            let Some(timed) = self.schedule.pop() else {
-                break;
-            };
-            match timed.deed {
+        while let Some(Timed {
+            character, deed, ..
+        }) = self.schedule.next_before(due)
+        {
+            match deed {
                 Deed::Push {
                     link,
                     impulse,
                     over,
-                } => {
-                    self.do_push(timed.character, link, impulse, over);
-                }
+                } => self.do_push(character, link, impulse, over),
                 // A refusal is in the events.
-                Deed::Command(text) => drop(self.command(timed.character, &text)),
+                Deed::Command(text) => drop(self.command(character, &text)),
             }
         }
         self.row.clear();
@@ -358,6 +272,11 @@ impl Simulation {
             link: name,
             impulse: [impulse, 0.0],
         };
+        self.note(character, kind);
+    }
+
+    /// Something happened now.
+    fn note(&mut self, character: usize, kind: EventKind) {
         self.events.push(Event {
             time: self.world.time(),
             character,
@@ -368,204 +287,12 @@ impl Simulation {
     /// How a character has ended.
     #[must_use]
     pub fn outcome(&self, character: usize) -> Outcome {
-        let (actor, now) = (&self.actors[character], self.sensors(character));
-        let since = actor.standing_since;
-        Outcome {
-            standing: since.is_some_and(|t| now.time - t >= STANDING_FOR - 1e-9),
-            active: actor.mind.active().unwrap_or_default().to_owned(),
-            posture: now.posture,
-            com: now.com,
-            com_velocity: now.com_velocity,
-        }
+        self.actors[character].outcome(self.sensors(character))
     }
 
     /// The first expectation of a scenario that the run did not meet, in words.
     #[must_use]
     pub fn disappointment(&self, expectations: &[Expectation]) -> Option<String> {
-        expectations.iter().find_map(|e| match e {
-            Expectation::Standing { character } => (!self.outcome(*character).standing)
-                .then(|| format!("character {character} does not stand at the end")),
-            Expectation::Active {
-                name,
-                before,
-                character,
-            } => {
-                let became = |e: &Event| {
-                    matches!(&e.kind, EventKind::Switch { to, .. } if to == name)
-                        && e.character == *character
-                        && e.time <= *before
-                };
-                (!self.events.iter().any(became))
-                    .then(|| format!("'{name}' was not active before {before} s"))
-            }
-            Expectation::Posture {
-                posture,
-                before,
-                character,
-            } => {
-                let seen = self.actors[*character].posture_seen[*posture as usize];
-                (seen.is_none_or(|t| t > *before))
-                    .then(|| format!("not {} before {before} s", posture.name()))
-            }
-        })
+        expectations.iter().find_map(|e| e.disappointment(self))
     }
-}
-
-impl Actor {
-    fn new(mind: Supervisor, model: &Model) -> Self {
-        Self {
-            mind,
-            torques: vec![0.0; model.joint_count()],
-            peak_torque: vec![0.0; model.joint_count()],
-            standing_since: None,
-            down: false,
-            posture_seen: [None; 8],
-        }
-    }
-
-    /// Notes what the step showed.
-    fn observe(&mut self, character: usize, now: &Sensors, events: &mut Vec<Event>) {
-        for ((peak, torque), joint) in self
-            .peak_torque
-            .iter_mut()
-            .zip(&self.torques)
-            .zip(now.model.joints())
-        {
-            *peak = peak.max(torque.abs().min(joint.torque));
-        }
-        self.posture_seen[now.posture as usize].get_or_insert(now.time);
-        let time = now.time;
-        for decision in self.mind.take_decisions() {
-            if let Decision::Refused { command, .. } = &decision {
-                let kind = EventKind::Command {
-                    text: command.clone(),
-                    accepted: false,
-                };
-                events.push(Event {
-                    time,
-                    character,
-                    kind,
-                });
-            }
-            events.push(Event {
-                time,
-                character,
-                kind: kind_of(decision),
-            });
-        }
-        if now.stands() {
-            self.standing_since.get_or_insert(time);
-        } else {
-            self.standing_since = None;
-        }
-        let lying = matches!(
-            now.posture,
-            Posture::Sitting
-                | Posture::Supine
-                | Posture::Prone
-                | Posture::Kneeling
-                | Posture::HandsAndFeet
-        );
-        if lying && !self.down {
-            self.down = true;
-            events.push(Event {
-                time,
-                character,
-                kind: EventKind::Fell,
-            });
-        } else if self.down
-            && self
-                .standing_since
-                .is_some_and(|t| time - t >= STANDING_FOR)
-        {
-            self.down = false;
-            events.push(Event {
-                time,
-                character,
-                kind: EventKind::Stood,
-            });
-        }
-    }
-}
-
-fn kind_of(decision: Decision) -> EventKind {
-    match decision {
-        Decision::Switch {
-            from,
-            to,
-            why,
-            bids,
-            ..
-        } => {
-            let why = match why {
-                Why::Start => "start".to_owned(),
-                Why::Succeeded => "succeeded".to_owned(),
-                Why::Command => "command".to_owned(),
-                Why::Failed(reason) => format!("failed: {reason}"),
-            };
-            EventKind::Switch {
-                from,
-                to,
-                why,
-                bids,
-            }
-        }
-        Decision::Obeyed { command, .. } => EventKind::Command {
-            text: command,
-            accepted: true,
-        },
-        Decision::Refused {
-            command,
-            controller,
-            clause,
-            value,
-            ..
-        } => EventKind::Refused {
-            command,
-            controller: Some(controller),
-            clause,
-            value,
-        },
-    }
-}
-
-/// The state in which a character of a scenario begins: its lowest point `lift` above the ground.
-///
-/// # Errors
-/// An unknown joint.
-pub fn start_state(model: &Model, start: &Start) -> Result<State> {
-    let mut state = State::standing(model);
-    for (joint, angle) in &start.angles {
-        state.q[3 + model.joint_index(joint)?] = *angle;
-    }
-    state.q[0] = start.x;
-    state.q[2] = start.pitch;
-    put_on_ground(model, &mut state, start.lift);
-    Ok(state)
-}
-
-/// Moves the root up or down until the character's lowest point is `lift` m above y = 0.
-pub fn put_on_ground(model: &Model, state: &mut State, lift: f64) {
-    let mut kinematics = Kinematics::new(model);
-    kinematics.update(model, state);
-    let mut lowest = f64::INFINITY;
-    for (i, link) in model.links.iter().enumerate() {
-        match link.shape {
-            Shape::Capsule { radius, from, to } => {
-                for end in [from, to] {
-                    lowest = lowest.min(kinematics.point(i, end)[1] - radius);
-                }
-            }
-            Shape::Box { half, centre } => {
-                for corner in [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]] {
-                    let p = [
-                        centre[0] + corner[0] * half[0],
-                        centre[1] + corner[1] * half[1],
-                    ];
-                    lowest = lowest.min(kinematics.point(i, p)[1]);
-                }
-            }
-        }
-    }
-    state.q[1] += lift - lowest;
 }

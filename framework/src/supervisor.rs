@@ -13,88 +13,18 @@
 //! - Polling has no side effect. Ties go to the earlier in the repertoire.
 //! - One controller, the fallback, accepts every state, so that something is always active.
 
-use serde::{Deserialize, Serialize};
-
 use crate::command::Command;
-use crate::condition::Condition;
 use crate::contract::Contract;
 use crate::controller::{Controller, Progress};
+pub use crate::decision::{Bid, Decision, Why};
 use crate::error::{Error, Result};
+use crate::pool::{self, Member};
 use crate::sensors::Sensors;
 
 /// s for which a controller that has just failed is not chosen again.
 pub const RECOVERY: f64 = 0.25;
 /// s for which a controller is active before its success is acted on.
 pub const DWELL: f64 = 0.05;
-
-/// Why control changed hands.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Why {
-    /// Nothing was active yet.
-    Start,
-    /// The former controller reached its post-condition.
-    Succeeded,
-    /// The former controller failed; the clause or reason.
-    Failed(String),
-    /// A command called.
-    Command,
-}
-
-/// What one controller said in an arbitration.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Bid {
-    /// Its name.
-    pub controller: String,
-    /// Its suitability; 0 if it refused.
-    pub suitability: u32,
-    /// Why it bid 0.
-    pub refusal: Option<String>,
-}
-
-/// What a supervisor decided, with the time in s.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Decision {
-    /// Control changed hands.
-    Switch {
-        /// s
-        time: f64,
-        /// The former controller; none at the start.
-        from: Option<String>,
-        /// The new one.
-        to: String,
-        /// Why.
-        why: Why,
-        /// What each controller of the pool said.
-        bids: Vec<Bid>,
-    },
-    /// A commanded controller's pre-condition does not hold.
-    Refused {
-        /// s
-        time: f64,
-        /// The command.
-        command: String,
-        /// The controller that answers to it.
-        controller: String,
-        /// The clause that refused.
-        clause: String,
-        /// The value that it refused.
-        value: Option<f64>,
-    },
-    /// The command called its controller.
-    Obeyed {
-        /// s
-        time: f64,
-        /// The command.
-        command: String,
-    },
-}
-
-#[derive(Debug, Clone)]
-struct Member {
-    controller: Box<dyn Controller>,
-    /// Until this time it bids 0, because it has failed.
-    recovers_at: f64,
-}
 
 /// The active controller and its activation.
 #[derive(Debug, Clone, Copy)]
@@ -125,71 +55,10 @@ impl Supervisor {
     /// [`Error::Invalid`] if the pool is empty, a name occurs twice, or the fallback is missing,
     /// has weight 0, or does not accept every state.
     pub fn new(name: &str, pool: Vec<Box<dyn Controller>>, fallback: &str) -> Result<Self> {
-        let invalid = |field: &str, problem: String, accepted: &str| Error::Invalid {
-            place: name.to_owned(),
-            field: field.to_owned(),
-            problem,
-            accepted: accepted.to_owned(),
-        };
-        for (i, c) in pool.iter().enumerate() {
-            let twin = pool[..i]
-                .iter()
-                .any(|o| o.contract().name == c.contract().name);
-            if twin {
-                let problem = format!("'{}' a second time", c.contract().name);
-                return Err(invalid(
-                    "controllers",
-                    problem,
-                    "a name of its own for each controller",
-                ));
-            }
-        }
-        let place = pool
-            .iter()
-            .position(|c| c.contract().name == fallback)
-            .ok_or_else(|| {
-                let names: Vec<&str> = pool.iter().map(|c| c.contract().name.as_str()).collect();
-                invalid(
-                    "fallback",
-                    format!("'{fallback}'"),
-                    &format!("a controller of the pool: {}", names.join(", ")),
-                )
-            })?;
-        let last = pool[place].contract();
-        if last.precondition != Condition::Always
-            || last.expected != Condition::Always
-            || last.weight == 0
-        {
-            let problem = format!("'{fallback}', which does not accept every state");
-            return Err(invalid(
-                "fallback",
-                problem,
-                "a controller with weight above 0 and pre-condition and expected performance Always",
-            ));
-        }
-        let of = |f: fn(&Contract) -> Condition| {
-            Condition::Any(pool.iter().map(|c| f(c.contract())).collect())
-        };
-        let contract = Contract {
-            name: name.to_owned(),
-            weight: pool.iter().map(|c| c.contract().weight).max().unwrap_or(0),
-            precondition: of(|c| c.precondition.clone()),
-            postcondition: Condition::Never,
-            expected: Condition::Always,
-            hold: 0.0,
-            patience: f64::INFINITY,
-            commands: pool
-                .iter()
-                .flat_map(|c| c.contract().commands.clone())
-                .collect(),
-        };
-        let member = |controller| Member {
-            controller,
-            recovers_at: f64::NEG_INFINITY,
-        };
+        let place = pool::fallback(name, &pool, fallback)?;
         Ok(Self {
-            contract,
-            pool: pool.into_iter().map(member).collect(),
+            contract: pool::contract(name, &pool),
+            pool: pool.into_iter().map(Member::new).collect(),
             fallback: place,
             active: None,
             pending: Vec::new(),
@@ -242,26 +111,7 @@ impl Supervisor {
     /// What each controller would say now.
     #[must_use]
     pub fn bids(&self, now: &Sensors) -> Vec<Bid> {
-        let bid = |m: &Member| {
-            let suitability = m.bid(now);
-            let contract = m.controller.contract();
-            let refusal = (suitability == 0).then(|| {
-                if contract.weight == 0 {
-                    "only on command".to_owned()
-                } else if now.time < m.recovers_at {
-                    "has just failed".to_owned()
-                } else {
-                    let failure = contract.precondition.first_failure(now);
-                    failure.map_or_else(|| "declines".to_owned(), |r| r.to_string())
-                }
-            });
-            Bid {
-                controller: contract.name.clone(),
-                suitability,
-                refusal,
-            }
-        };
-        self.pool.iter().map(bid).collect()
+        self.pool.iter().map(|m| m.explain(now)).collect()
     }
 
     /// The member with the highest bid, the earliest of equals; the fallback if all bid 0.
@@ -344,16 +194,6 @@ impl Supervisor {
                 command: text,
             });
             self.switch(now, member, Why::Command);
-        }
-    }
-}
-
-impl Member {
-    fn bid(&self, now: &Sensors) -> u32 {
-        if now.time < self.recovers_at {
-            0
-        } else {
-            self.controller.suitability(now)
         }
     }
 }

@@ -72,18 +72,22 @@ impl RunArgs {
         progress::run(&mut simulation, scenario.duration);
         let wall_s = begun.elapsed().as_secs_f64();
 
-        if let Some(recording) = simulation.recording() {
+        // Told once the files are written: a reader that leaves early does not lose them.
+        let mut told = Vec::new();
+        if self.json {
+            let json = RunJson::new(&simulation, &scenario, wall_s, self.explain);
+            serde_json::to_writer(&mut told, &json)?;
+            writeln!(told)?;
+        } else {
+            timeline::print(&mut told, &simulation, &scenario, self.explain)?;
+        }
+        let unmet = simulation.disappointment(&scenario.expect);
+        if let Some(recording) = simulation.into_recording() {
             let (record, render) = (self.record.as_deref(), self.render.as_deref());
             write_recording(&recording, record, render)?;
         }
-        if self.json {
-            let json = RunJson::new(&simulation, &scenario, wall_s, self.explain);
-            serde_json::to_writer(&mut *out, &json)?;
-            writeln!(out)?;
-        } else {
-            timeline::print(out, &simulation, &scenario, self.explain)?;
-        }
-        match simulation.disappointment(&scenario.expect) {
+        out.write_all(&told)?;
+        match unmet {
             None => Ok(Verdict::Done),
             Some(unmet) => {
                 message(format_args!("expectation not met: {unmet}"));

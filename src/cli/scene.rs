@@ -10,6 +10,7 @@ use aplomb::framework::model::Model;
 use aplomb::framework::registry::Registry;
 use aplomb::framework::scenario::{Role, Scenario};
 use aplomb::framework::simulation::Simulation;
+use aplomb::framework::trajectory::row_width;
 use clap::Args;
 
 use super::values::{Setting, whole};
@@ -109,11 +110,9 @@ fn check_repertoire(role: &Role, registry: &Registry) -> Result<()> {
 
 /// Begins to record, unless the whole run would not fit into memory.
 pub(super) fn record(simulation: &mut Simulation, scenario: &Scenario) -> Result<()> {
-    let numbers = |dof: usize| (2 * dof + 11) as f64;
-    let characters = simulation.world().characters().iter();
-    let width: f64 = characters.map(|c| numbers(c.body.model().dof())).sum();
-    let props = 3.0 * scenario.props.len() as f64;
-    let bytes = 4.0 * (width + props) * scenario.duration / scenario.settings.dt;
+    let models = simulation.world().characters().iter();
+    let width = row_width(models.map(|c| c.body.model()), scenario.props.len());
+    let bytes = 4.0 * width as f64 * scenario.duration / scenario.settings.dt;
     ensure!(
         bytes <= LARGEST_RECORDING,
         "a recording of {} s would take {:.1} GB; accepted: at most {} GB, so shorten the run",

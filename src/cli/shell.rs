@@ -63,7 +63,7 @@ impl ShellArgs {
         let told = 0;
         let mut shell = Shell { simulation, told };
         let bad = shell.converse(&mut stdin.lock(), out, person)?;
-        if let (Some(path), Some(recording)) = (self.record, shell.simulation.recording()) {
+        if let (Some(path), Some(recording)) = (self.record, shell.simulation.into_recording()) {
             recording.write(&path)?;
             message(format_args!("recorded in {}", path.display()));
         }

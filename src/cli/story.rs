@@ -29,7 +29,8 @@ pub(super) fn tell(out: &mut dyn Write) -> Result<Verdict> {
     simulation.record(&scenario.name, scenario.seed);
     progress::run(&mut simulation, scenario.duration);
     timeline::print(out, &simulation, &scenario, false)?;
-    if let Some(trajectory) = simulation.recording() {
+    let unmet = simulation.disappointment(&scenario.expect);
+    if let Some(trajectory) = simulation.into_recording() {
         trajectory.write(recording)?;
         aplomb::render::write(&trajectory, picture, true)?;
     }
@@ -42,7 +43,7 @@ pub(super) fn tell(out: &mut dyn Write) -> Result<Verdict> {
         out,
         "To try things yourself: aplomb shell, aplomb run --help"
     )?;
-    Ok(match simulation.disappointment(&scenario.expect) {
+    Ok(match unmet {
         None => Verdict::Done,
         Some(_) => Verdict::Unmet,
     })

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use aplomb::framework::command::Command;
 use aplomb::framework::error::shortened;
-use aplomb::framework::scenario::{Happening, LONGEST, Number};
+use aplomb::framework::scenario::{Happening, LONGEST, Number, PUSH_DURATION};
 
 /// The strongest push, N·s either way.
 pub(super) const STRONGEST: f64 = 1e5;
@@ -114,7 +114,7 @@ impl Timed for Push {
             at: Number::Value(self.at),
             link: self.link.clone(),
             impulse: Number::Value(self.impulse),
-            over: 0.1,
+            over: PUSH_DURATION,
             character: 0,
         }
     }

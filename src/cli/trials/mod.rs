@@ -178,18 +178,21 @@ impl TrialsArgs {
             simulation,
             ..
         } = staged;
-        if let Some(recording) = simulation.recording() {
-            write_recording(&recording, self.record.as_deref(), None)?;
-        }
+        // Told once the recording is written: a reader that leaves early does not lose it.
+        let mut told = Vec::new();
         if self.json {
             let mut tally = Tally::new(plan.pool());
             tally.take(&trial);
             let run = RunJson::new(&simulation, &scenario, wall_s, false);
-            Report::new(plan, tally, wall_s, false).write_json(out, Some(run))?;
+            Report::new(plan, tally, wall_s, false).write_json(&mut told, Some(run))?;
         } else {
-            writeln!(out, "trial {index}: {}", trial.disturbance())?;
-            timeline::print(out, &simulation, &scenario, false)?;
+            writeln!(told, "trial {index}: {}", trial.disturbance())?;
+            timeline::print(&mut told, &simulation, &scenario, false)?;
         }
+        if let Some(recording) = simulation.into_recording() {
+            write_recording(&recording, self.record.as_deref(), None)?;
+        }
+        out.write_all(&told)?;
         Ok(Verdict::Done)
     }
 }

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use anyhow::Result;
 use aplomb::framework::model::Model;
 use aplomb::framework::registry::Registry;
-use aplomb::framework::scenario::{Happening, Number, Scenario};
+use aplomb::framework::scenario::{Happening, Number, PUSH_DURATION, Scenario};
 use aplomb::framework::simulation::Simulation;
 use aplomb::framework::trajectory::{Event, EventKind};
 use rand::{Rng, SeedableRng};
@@ -121,7 +121,7 @@ impl Plan {
                 at: Number::Value(PUSH_AT),
                 link: link.clone(),
                 impulse: Number::Value(*impulse),
-                over: 0.1,
+                over: PUSH_DURATION,
                 character: 0,
             });
         }

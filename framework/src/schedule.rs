@@ -1,0 +1,97 @@
+//! What is still to be done to the characters of a run.
+//!
+//! happenings → [`Schedule`] → what is due at a step.
+
+use crate::error::Result;
+use crate::model::Model;
+use crate::scenario::{Happening, Scenario};
+use crate::supervisor::Supervisor;
+
+/// What is done to a character.
+#[derive(Debug, Clone)]
+pub(crate) enum Deed {
+    /// A push at a link's centre of mass.
+    Push {
+        /// Place of the link.
+        link: usize,
+        /// N·s, forward positive.
+        impulse: f64,
+        /// s over which it is spread.
+        over: f64,
+    },
+    /// A command string.
+    Command(String),
+}
+
+/// A deed at its time.
+#[derive(Debug, Clone)]
+pub(crate) struct Timed {
+    /// s
+    pub(crate) time: f64,
+    /// Place of the character.
+    pub(crate) character: usize,
+    /// What is done.
+    pub(crate) deed: Deed,
+}
+
+impl Timed {
+    /// What happens by the scenario to a character of this model and mind.
+    ///
+    /// # Errors
+    /// An unknown link or parameter, a malformed command or one that the mind does not answer to.
+    pub(crate) fn new(
+        event: &Happening,
+        scenario: &Scenario,
+        model: &Model,
+        mind: &Supervisor,
+    ) -> Result<Self> {
+        match event {
+            Happening::Push {
+                at,
+                link,
+                impulse,
+                over,
+                character,
+            } => Ok(Self {
+                time: scenario.number(at)?,
+                character: *character,
+                deed: Deed::Push {
+                    link: model.link_index(link)?,
+                    impulse: scenario.number(impulse)?,
+                    over: *over,
+                },
+            }),
+            Happening::Command {
+                at,
+                text,
+                character,
+            } => {
+                // A trial on a clone: commands that nobody answers to are found before the run.
+                mind.clone().command(text)?;
+                Ok(Self {
+                    time: scenario.number(at)?,
+                    character: *character,
+                    deed: Deed::Command(text.clone()),
+                })
+            }
+        }
+    }
+}
+
+/// Deeds by time, the next last.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Schedule(Vec<Timed>);
+
+impl Schedule {
+    /// Adds a deed. It goes before its equals, which are then taken from the end first: first
+    /// scheduled, first done.
+    pub(crate) fn add(&mut self, timed: Timed) {
+        let place = self.0.partition_point(|t| t.time > timed.time);
+        self.0.insert(place, timed);
+    }
+
+    /// Takes out the next deed if its time is before `due`.
+    pub(crate) fn next_before(&mut self, due: f64) -> Option<Timed> {
+        self.0.pop_if(|t| t.time < due)
+    }
+}

@@ -1,0 +1,197 @@
+//! Commands, and supervisors within supervisors.
+
+use aplomb_framework::condition::Condition;
+use aplomb_framework::controller::Controller;
+use aplomb_framework::sensors::Sensors;
+use aplomb_framework::supervisor::{Decision, Supervisor};
+
+use super::common::Puppet;
+use super::{DT, fallback, sensors, slower_than, supervisor, switches};
+
+#[test]
+fn no_command_overrides_a_failed_precondition() {
+    let run = Puppet::new(
+        "run",
+        0,
+        Condition::All(vec![Condition::Always, slower_than(0.5)]),
+    );
+    let (entries, obediences) = (run.entries(), run.obediences());
+    let mut mind = supervisor(vec![run, fallback()]);
+    let (mut now, mut torques) = (sensors(), vec![0.0; 12]);
+    now.com_velocity[0] = 0.75;
+    mind.command("run").unwrap();
+    mind.act(&now, &mut torques);
+    assert_eq!(mind.active(), Some("rest"));
+    let refused = Decision::Refused {
+        time: 0.0,
+        command: "run".to_owned(),
+        controller: "run".to_owned(),
+        clause: "com_velocity_x ≤ 0.5 (is 0.750)".to_owned(),
+        value: Some(0.75),
+    };
+    assert!(mind.take_decisions().contains(&refused));
+    assert_eq!(
+        (entries(), obediences()),
+        (0, 0),
+        "a refused command leaves no trace"
+    );
+    // The refusal is final: the command isn't kept for better times.
+    now.com_velocity[0] = 0.0;
+    now.time = DT;
+    mind.act(&now, &mut torques);
+    assert_eq!((mind.active(), entries()), (Some("rest"), 0));
+    mind.command("run").unwrap();
+    mind.act(&now, &mut torques);
+    assert_eq!(
+        (mind.active(), entries(), obediences()),
+        (Some("run"), 1, 1)
+    );
+}
+
+#[test]
+fn an_unknown_command_is_refused_with_the_nearest() {
+    let mut mind = supervisor(vec![
+        Puppet::new("step_forward", 3, Condition::Always),
+        fallback(),
+    ]);
+    let refusal = mind.command("step_foward").unwrap_err().to_string();
+    assert_eq!(
+        refusal,
+        "unknown command 'step_foward' (did you mean 'step_forward'?); known: step_forward, rest"
+    );
+    assert!(
+        mind.command("step_forward length=1")
+            .unwrap_err()
+            .to_string()
+            .contains("takes no parameters")
+    );
+    assert!(mind.command("").is_err());
+}
+
+#[test]
+fn several_commands_in_one_step_are_all_answered_in_order() {
+    let pool = vec![
+        Puppet::new("a", 0, Condition::Always),
+        Puppet::new("b", 0, slower_than(-1.0)),
+        Puppet::new("c", 0, Condition::Always),
+        fallback(),
+    ];
+    let mut mind = supervisor(pool);
+    for text in ["a", "b", "c", "a", "c"] {
+        mind.command(text).unwrap();
+    }
+    mind.act(&sensors(), &mut [0.0; 12]);
+    let told = |d: &Decision| match d {
+        Decision::Obeyed { command, .. } => Some(format!("{command} obeyed")),
+        Decision::Refused { command, .. } => Some(format!("{command} refused")),
+        Decision::Switch { .. } => None,
+    };
+    let answers: Vec<String> = mind.take_decisions().iter().filter_map(told).collect();
+    assert_eq!(
+        answers,
+        ["a obeyed", "b refused", "c obeyed", "a obeyed", "c obeyed"]
+    );
+    assert_eq!(mind.active(), Some("c"));
+}
+
+#[test]
+fn a_supervisor_is_a_member_like_any_other() {
+    let inner = || {
+        let pool = vec![
+            Puppet::new("slow", 5, slower_than(0.5)).with_torque(1.0),
+            Puppet::new("hop", 0, Condition::Always).with_torque(2.0),
+            Puppet::new("still", 1, Condition::Always).with_torque(3.0),
+        ];
+        let pool = pool.into_iter().map(Puppet::boxed).collect();
+        Supervisor::new("inner", pool, "still").unwrap()
+    };
+    let pool: Vec<Box<dyn Controller>> = vec![Box::new(inner()), fallback().boxed()];
+    let mut mind = Supervisor::new("outer", pool, "rest").unwrap();
+    let (now, mut torques) = (sensors(), vec![0.0; 12]);
+    mind.act(&now, &mut torques);
+    assert_eq!((mind.active(), torques[0]), (Some("inner"), 1.0));
+    let decisions = mind.take_decisions();
+    let all: Vec<&str> = switches(&decisions).iter().map(|s| s.2).collect();
+    assert_eq!(all, ["inner", "slow"]);
+    mind.command("hop").unwrap();
+    mind.act(&now, &mut torques);
+    assert_eq!((mind.active(), torques[0]), (Some("inner"), 2.0));
+    let clone = mind.clone_box();
+    assert_eq!(clone.contract(), mind.contract());
+    assert!(
+        mind.command("hopp")
+            .unwrap_err()
+            .to_string()
+            .contains("'hop'")
+    );
+}
+
+/// A command that an outer supervisor refuses must not come into force when the inner one is
+/// next entered.
+#[test]
+fn a_refused_command_is_not_carried_out_later() {
+    let hop = Puppet::new("hop", 2, slower_than(0.5)).with_torque(2.0);
+    let slow = Puppet::new("slow", 5, slower_than(0.4)).with_torque(1.0);
+    let rest = Puppet::new("still", 1, Condition::Always).with_torque(3.0);
+    let pool = vec![slow.boxed(), hop.boxed(), rest.boxed()];
+    let inner = Supervisor::new("inner", pool, "still").unwrap();
+    // The inner pool behind a gate of its own.
+    let gated = Gated::new(inner, slower_than(0.5));
+    let pool: Vec<Box<dyn Controller>> = vec![Box::new(gated), fallback().boxed()];
+    let mut mind = Supervisor::new("outer", pool, "rest").unwrap();
+    let (mut now, mut torques) = (sensors(), vec![0.0; 12]);
+    now.com_velocity[0] = 0.9;
+    mind.act(&now, &mut torques);
+    mind.command("hop").unwrap();
+    now.time = DT;
+    mind.act(&now, &mut torques);
+    let refused = |d: &Decision| matches!(d, Decision::Refused { .. });
+    assert!(mind.take_decisions().iter().any(refused));
+    now.com_velocity[0] = 0.0;
+    for step in 2..200 {
+        now.time = f64::from(step) * DT;
+        mind.act(&now, &mut torques);
+    }
+    assert_eq!(
+        torques[0],
+        1.0,
+        "`slow` has won; nobody hops: {:?}",
+        mind.take_decisions()
+    );
+}
+
+/// A controller behind a pre-condition of its own.
+#[derive(Debug, Clone)]
+struct Gated {
+    contract: aplomb_framework::contract::Contract,
+    inner: Supervisor,
+}
+
+impl Gated {
+    fn new(inner: Supervisor, precondition: Condition) -> Self {
+        let mut contract = inner.contract().clone();
+        contract.precondition = precondition;
+        Self { contract, inner }
+    }
+}
+
+impl Controller for Gated {
+    fn contract(&self) -> &aplomb_framework::contract::Contract {
+        &self.contract
+    }
+    fn enter(&mut self, now: &Sensors) {
+        self.inner.enter(now);
+    }
+    fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
+        self.inner.act(now, torques);
+    }
+    fn clone_box(&self) -> Box<dyn Controller> {
+        Box::new(self.clone())
+    }
+    fn obey(
+        &mut self,
+        command: &aplomb_framework::command::Command,
+    ) -> aplomb_framework::Result<bool> {
+        self.inner.obey(command)
+    }
+}

@@ -1,0 +1,67 @@
+//! The supervisor's rules, with controllers that break theirs.
+#![allow(clippy::unwrap_used)]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod commands;
+mod pools;
+mod turns;
+
+use aplomb_framework::condition::Condition;
+use aplomb_framework::controller::Controller;
+use aplomb_framework::model::Model;
+use aplomb_framework::sensors::Sensors;
+use aplomb_framework::supervisor::{Decision, Supervisor};
+use common::Puppet;
+
+const DT: f64 = 1e-3;
+
+/// Where the forward velocity is at most `most`.
+fn slower_than(most: f64) -> Condition {
+    Condition::Within {
+        feature: "com_velocity_x".parse().unwrap(),
+        min: f64::NEG_INFINITY,
+        max: most,
+    }
+}
+
+fn fallback() -> Puppet {
+    Puppet::new("rest", 1, Condition::Always).that_succeeds_at_once()
+}
+
+fn supervisor(pool: Vec<Puppet>) -> Supervisor {
+    let pool = pool.into_iter().map(Puppet::boxed).collect();
+    Supervisor::new("pool", pool, "rest").unwrap()
+}
+
+fn sensors() -> Sensors {
+    Sensors::new(&Model::load("humanoid").unwrap(), 9.81)
+}
+
+/// Steps with a velocity that depends on time; returns all decisions.
+fn steps(mind: &mut Supervisor, count: u32, velocity: impl Fn(f64) -> f64) -> Vec<Decision> {
+    let mut now = sensors();
+    let mut torques = vec![0.0; now.model.joint_count()];
+    for step in 0..count {
+        now.time = f64::from(step) * DT;
+        now.com_velocity[0] = velocity(now.time);
+        mind.act(&now, &mut torques);
+        assert!(mind.active().is_some(), "something is always active");
+    }
+    mind.take_decisions()
+}
+
+/// (time, from, to) of all switches.
+fn switches(decisions: &[Decision]) -> Vec<(f64, Option<&str>, &str)> {
+    let of = |d| match d {
+        &Decision::Switch {
+            time,
+            ref from,
+            ref to,
+            ..
+        } => Some((time, from.as_deref(), &**to)),
+        _ => None,
+    };
+    decisions.iter().filter_map(of).collect()
+}
