@@ -2,8 +2,8 @@
 //! absorb the shock, elbows yield, knees and trunk fold, the head is kept up.
 //!
 //! Which way is decided when it takes over, by the velocity of the centre of mass, and again if the
-//! trunk turns over on the way. Two phases each way: reaching while in the air, yielding once hands
-//! or seat touch. Ends at rest.
+//! trunk turns over on the way. Three phases each way: reaching while in the air, yielding once hands
+//! or seat touch, then lowering what is still propped up. Ends lying at rest.
 //!
 //! Fails to protect when something hits the character on the way down, or when the fall is faster
 //! than the arms. Poses and gains: the file, from the project's search over pushes.
@@ -21,12 +21,8 @@ use serde::{Deserialize, Serialize};
 use crate::servo::{Servo, smoothstep};
 use crate::target::{NamedAngles, bounded, overlay};
 
-/// s after the landing for which the limbs hold before they relax.
+/// s after the landing for which the limbs hold before they lower what is still up.
 const HOLDS: f64 = 0.6;
-/// s that relaxing takes.
-const RELAXES: f64 = 1.0;
-/// Part of the stiffness that is left then.
-const LIMP: f64 = 0.05;
 
 /// One way of falling.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,6 +32,10 @@ pub struct Way {
     pub reach: NamedAngles,
     /// Pose from then on.
     pub give: NamedAngles,
+    /// Pose to lie in.
+    pub lie: NamedAngles,
+    /// s that lowering to it takes.
+    pub lower: f64,
     /// Stiffness while reaching, relative to the nominal servos.
     pub reach_stiffness: f64,
     /// Stiffness while yielding.
@@ -58,10 +58,11 @@ pub struct FallSpec {
 
 #[derive(Debug, Clone)]
 struct Poses {
-    reach: Vec<f64>,
-    give: Vec<f64>,
-    stiffness: [f64; 2],
-    ramp: f64,
+    /// To reach, to give, to lie.
+    pose: [Vec<f64>; 3],
+    stiffness: [f64; 3],
+    /// s to ease into each.
+    ramp: [f64; 3],
 }
 
 /// The controller.
@@ -76,7 +77,7 @@ pub struct Fall {
     since: f64,
     from: Vec<f64>,
     target: Vec<f64>,
-    landed: bool,
+    phase: usize,
 }
 
 impl Spec for FallSpec {
@@ -92,11 +93,11 @@ impl Spec for FallSpec {
             bounded(name, "reach_stiffness", way.reach_stiffness, 0.0, 3.0)?;
             bounded(name, "give_stiffness", way.give_stiffness, 0.0, 3.0)?;
             bounded(name, "ramp", way.ramp, 0.0, 5.0)?;
+            bounded(name, "lower", way.lower, 0.0, 10.0)?;
             Ok::<_, aplomb_framework::Error>(Poses {
-                reach: pose(&way.reach)?,
-                give: pose(&way.give)?,
-                stiffness: [way.reach_stiffness, way.give_stiffness],
-                ramp: way.ramp,
+                pose: [pose(&way.reach)?, pose(&way.give)?, pose(&way.lie)?],
+                stiffness: [way.reach_stiffness, way.give_stiffness, way.give_stiffness],
+                ramp: [way.ramp, way.ramp, way.lower],
             })
         };
         Ok(Box::new(Fall {
@@ -107,14 +108,15 @@ impl Spec for FallSpec {
             since: 0.0,
             from: vec![0.0; model.joint_count()],
             target: vec![0.0; model.joint_count()],
-            landed: false,
+            phase: 0,
             contract,
         }))
     }
 }
 
 impl Fall {
-    fn begin_phase(&mut self, now: &Sensors) {
+    fn begin_phase(&mut self, now: &Sensors, phase: usize) {
+        self.phase = phase;
         self.since = now.time;
         self.from.copy_from_slice(now.state.angles());
     }
@@ -140,42 +142,33 @@ impl Controller for Fall {
 
     fn enter(&mut self, now: &Sensors) {
         self.is_forward = Self::goes_forward(now);
-        self.landed = false;
-        self.begin_phase(now);
+        self.begin_phase(now, 0);
     }
 
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
-        if !self.landed && !now.only_feet_support() && now.contacts.iter().any(|c| c.supported) {
-            self.landed = true;
-            self.begin_phase(now);
-        }
+        let down = !now.only_feet_support() && now.contacts.iter().any(|c| c.supported);
         let pitch = now.trunk_pitch();
-        if !self.landed && pitch.abs() > 0.8 && (pitch < 0.0) != self.is_forward {
+        if self.phase == 0 && down {
+            self.begin_phase(now, 1);
+        } else if self.phase == 0 && pitch.abs() > 0.8 && (pitch < 0.0) != self.is_forward {
             self.is_forward = !self.is_forward;
-            self.begin_phase(now);
+            self.begin_phase(now, 0);
+        } else if self.phase == 1 && now.time - self.since > HOLDS {
+            self.is_forward = pitch < 0.0; // it may have rolled over since
+            self.begin_phase(now, 2);
         }
-        let poses = if self.is_forward {
+        let way = if self.is_forward {
             &self.forward
         } else {
             &self.backward
         };
-        let phase = usize::from(self.landed);
-        let pose = if self.landed {
-            &poses.give
-        } else {
-            &poses.reach
-        };
-        let eased = smoothstep((now.time - self.since) / poses.ramp.max(1e-3));
-        for ((target, from), to) in self.target.iter_mut().zip(&self.from).zip(pose) {
+        let eased = smoothstep((now.time - self.since) / way.ramp[self.phase].max(1e-3));
+        let ends = self.from.iter().zip(&way.pose[self.phase]);
+        for (target, (from, to)) in self.target.iter_mut().zip(ends) {
             *target = from + eased * (to - from);
         }
-        let mut stiffness = poses.stiffness[phase];
-        if self.landed {
-            // What is left of the fall is over: relax.
-            let relaxed = smoothstep((now.time - self.since - HOLDS) / RELAXES);
-            stiffness *= 1.0 - relaxed * (1.0 - LIMP);
-        }
-        self.servo.track(now, &self.target, stiffness, torques);
+        self.servo
+            .track(now, &self.target, way.stiffness[self.phase], torques);
     }
 
     fn clone_box(&self) -> Box<dyn Controller> {
