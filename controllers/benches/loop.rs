@@ -3,7 +3,8 @@
 
 use std::sync::Arc;
 
-use aplomb_controllers::momentum::{Formulation, Gains, Momentum, Reference};
+use aplomb_controllers::gains::Gains;
+use aplomb_controllers::momentum::{Formulation, Momentum, Reference};
 use aplomb_controllers::registry;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::controller::Controller;
@@ -193,6 +194,6 @@ fn step_at_rest_in_the_air(bencher: Bencher) {
     let model = Model::load("humanoid").unwrap();
     let source = Source::new("r.ron", REST);
     let mind = repertoire::build(&source, None, &registry(), &model).unwrap();
-    let start = Simulation::with_minds(&scenario(0.0, 50.0), vec![mind]).unwrap();
+    let start = Simulation::with_cast(&scenario(0.0, 50.0), vec![(model, mind)]).unwrap();
     run(bencher, &start);
 }

@@ -23,7 +23,7 @@ pub struct Actor {
     pub peak_torque: Vec<f64>,
     /// Since when it has stood without a break, s.
     standing_since: Option<f64>,
-    /// Whether it is down: something other than feet has touched since it last stood.
+    /// Whether it is down: something other than feet has supported it since it last stood.
     down: bool,
     /// When each posture was first seen, s.
     posture_seen: [Option<f64>; 8],
@@ -32,7 +32,7 @@ pub struct Actor {
 /// How a run ended for one character.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// Stood for the last second: only feet on the ground, the centre of mass above 0.9 of its
+    /// Stood for the last second: only feet supported it, the centre of mass above 0.9 of its
     /// standing height, over the base of support, slower than 0.1 m/s.
     pub standing: bool,
     /// The active controller.
@@ -98,21 +98,25 @@ impl Actor {
                 | Posture::Kneeling
                 | Posture::HandsAndFeet
         );
-        let stands = |since| time - since >= STANDING_FOR;
         if lying && !self.down {
             self.down = true;
             note(EventKind::Fell);
-        } else if self.down && self.standing_since.is_some_and(stands) {
+        } else if self.down && self.has_stood(time) {
             self.down = false;
             note(EventKind::Stood);
         }
     }
 
+    /// Whether it has stood for long enough to be called standing.
+    fn has_stood(&self, time: f64) -> bool {
+        let enough = |since: f64| time - since >= STANDING_FOR - 1e-9;
+        self.standing_since.is_some_and(enough)
+    }
+
     /// How the run has ended if it ends at what is sensed now.
     pub(crate) fn outcome(&self, now: &Sensors) -> Outcome {
-        let since = self.standing_since;
         Outcome {
-            standing: since.is_some_and(|t| now.time - t >= STANDING_FOR - 1e-9),
+            standing: self.has_stood(now.time),
             active: self.mind.active().unwrap_or_default().to_owned(),
             posture: now.posture,
             com: now.com,

@@ -57,7 +57,7 @@ pub enum EventKind {
         /// The value that it refused.
         value: Option<f64>,
     },
-    /// Something other than feet touched, after standing.
+    /// Something other than feet supports it, for the first time since it stood or the run began.
     Fell,
     /// Standing again, after a fall.
     Stood,

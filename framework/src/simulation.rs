@@ -52,25 +52,33 @@ impl Simulation {
     /// # Errors
     /// Unreadable or invalid characters and repertoires; links, joints or commands that they lack.
     pub fn new(scenario: &Scenario, registry: &Registry) -> Result<Self> {
-        let mut minds = Vec::with_capacity(scenario.characters.len());
+        let mut cast = Vec::with_capacity(scenario.characters.len());
         for role in &scenario.characters {
             let model = Model::load(&role.character)?;
             let repertoire = role.repertoire.as_deref().unwrap_or(&model.name);
-            minds.push(repertoire::load(repertoire, registry, &model)?);
+            let mind = repertoire::load(repertoire, registry, &model)?;
+            cast.push((model, mind));
         }
-        Self::with_minds(scenario, minds)
+        Self::with_cast(scenario, cast)
     }
 
-    /// The same with minds that were built elsewhere, one a character of the scenario; characters
-    /// without one are left out.
+    /// The same with characters and minds that were built elsewhere, one pair a character of the
+    /// scenario.
     ///
     /// # Errors
-    /// As [`Self::new`].
-    pub fn with_minds(scenario: &Scenario, minds: Vec<Supervisor>) -> Result<Self> {
+    /// Another number of characters; joints, links or commands that they lack.
+    pub fn with_cast(scenario: &Scenario, cast: Vec<(Arc<Model>, Supervisor)>) -> Result<Self> {
+        if cast.len() != scenario.characters.len() {
+            return Err(Error::invalid(
+                &scenario.name,
+                "characters",
+                cast.len(),
+                format!("one mind for each of the {}", scenario.characters.len()),
+            ));
+        }
         let mut world = World::new(scenario.settings);
-        let mut actors = Vec::with_capacity(minds.len());
-        for (role, mind) in scenario.characters.iter().zip(minds) {
-            let model = Model::load(&role.character)?;
+        let mut actors = Vec::with_capacity(cast.len());
+        for (role, (model, mind)) in scenario.characters.iter().zip(cast) {
             world.spawn(&model, &start_state(&model, &role.start)?);
             actors.push(Actor::new(mind, &model));
         }

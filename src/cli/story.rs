@@ -28,12 +28,15 @@ pub(super) fn tell(out: &mut dyn Write) -> Result<Verdict> {
     let mut simulation = Simulation::new(&scenario, &aplomb::controllers::registry())?;
     simulation.record(&scenario.name, scenario.seed);
     progress::run(&mut simulation, scenario.duration);
-    timeline::print(out, &simulation, &scenario, false)?;
+    // The files first: a reader of the text who leaves early takes nothing away.
+    let mut told = Vec::new();
+    timeline::print(&mut told, &simulation, &scenario, false)?;
     let unmet = simulation.disappointment(&scenario.expect);
     if let Some(trajectory) = simulation.into_recording() {
         trajectory.write(recording)?;
         aplomb::render::write(&trajectory, picture, true)?;
     }
+    out.write_all(&told)?;
     writeln!(out, "\nDrawn in {PICTURE}, recorded in {RECORDING}.")?;
     writeln!(
         out,

@@ -2,6 +2,8 @@
 //!
 //! repertoire in text → rollouts → what touched first, impacts, rest → cost.
 
+use std::sync::Arc;
+
 use aplomb_framework::file::Source;
 use aplomb_framework::model::Model;
 use aplomb_framework::registry::Registry;
@@ -60,7 +62,7 @@ pub fn land(text: &str, registry: &Registry, push: Push) -> Result<Landing> {
     scenario.settings.friction = push.friction;
     let model = Model::load("humanoid")?;
     let mind = repertoire::build(&Source::new("tuned", text), None, registry, &model)?;
-    let mut run = Simulation::with_minds(&scenario, vec![mind])?;
+    let mut run = Simulation::with_cast(&scenario, vec![(Arc::clone(&model), mind)])?;
     run.run(push.at);
     run.push(0, push.site.link(&model), push.impulse)?;
     let mut landing = Landing::default();

@@ -3,6 +3,8 @@
 //! repertoire in text → rollouts → cost. Each push is a short rollout: 1 s of standing, the push,
 //! then up to 7 s until the character has stood for a second or has come down.
 
+use std::sync::Arc;
+
 use aplomb_framework::file::Source;
 use aplomb_framework::model::Model;
 use aplomb_framework::registry::Registry;
@@ -97,7 +99,7 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
     scenario.settings.friction = push.friction;
     let model = Model::load("humanoid")?;
     let mind = repertoire::build(&Source::new("tuned", text), None, registry, &model)?;
-    let mut run = Simulation::with_minds(&scenario, vec![mind])?;
+    let mut run = Simulation::with_cast(&scenario, vec![(Arc::clone(&model), mind)])?;
     run.run(push.at);
     let quiet = run.sensors(0).com_velocity[0].abs() < 0.05;
     run.push(0, push.site.link(&model), push.impulse)?;
