@@ -2,8 +2,10 @@
 //! reference point of the base of support while a pose is tracked.
 //!
 //! Fails when the capture point leaves what the soles, the trunk and the arms can bring back, when
-//! a push lifts both feet, or on ground that slides. Gains: the result of `aplomb train balance`
-//! (CMA-ES over pushes at the limit, seeds in the repertoire's file).
+//! a push lifts both feet, or on ground that slides. Its expected performance gives up early, when
+//! the capture point is beyond recall, so that falling can begin in time. Near its limit it lifts a
+//! leg as a counterweight. Gains: the output of `tune` (CMA-ES over pushes at the limit), with seed
+//! and cost in `skills/balance.ron`.
 
 use std::sync::Arc;
 

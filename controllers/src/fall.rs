@@ -1,12 +1,13 @@
-//! Protective falling, after the 2001 paper (section 6.2): the hands reach for the ground and
+//! Protective falling, after the 2001 paper ("Falling"): the hands reach for the ground and
 //! absorb the shock, elbows yield, knees and trunk fold, the head is kept up.
 //!
-//! Which way is decided when it takes over, by the velocity of the centre of mass, and again if the
-//! trunk turns over on the way. Three phases each way: reaching while in the air, yielding once hands
+//! Which way is decided when it takes over, by where the capture point lies, and again if the trunk
+//! turns over on the way. Three phases each way: reaching while in the air, yielding once hands
 //! or seat touch, then lowering what is still propped up. Ends lying at rest.
 //!
 //! Fails to protect when something hits the character on the way down, or when the fall is faster
-//! than the arms. Poses and gains: the file, from the project's search over pushes.
+//! than the arms. Poses and gains: the output of `tune` over pushes that nothing withstands, with
+//! seeds and costs in `skills/fall.ron`; the poses to lie in are by hand.
 
 use std::sync::Arc;
 

@@ -9,7 +9,8 @@
 //!   pressure inside each foot, the friction cone, torque limits and joint ranges as constraints.
 //!
 //! L̇ is divided by the mass and Ḣ by mass × half a metre, so that the weights compare accelerations
-//! and carry over between characters.
+//! and carry over between characters. The reference pose is held, so the feed-forward θ̈ of (2) is 0;
+//! J̇q̇ and the Coriolis terms, which the paper leaves out, are kept.
 //!
 //! sensors + [`Reference`] → quadratic program → torques. Nothing is allocated after building.
 

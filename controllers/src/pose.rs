@@ -1,4 +1,4 @@
-//! Pose control as data (2001 paper, section 5.3): a finite state machine of target poses, each
+//! Pose control as data (2001 paper, "Pose and continuous control"): a finite state machine of target poses, each
 //! held for a time or until something happens, so that a skill can be a file.
 //!
 //! Targets ease from one pose to the next; feedback rules add features of the situation to joint

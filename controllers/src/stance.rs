@@ -1,4 +1,4 @@
-//! Quiet standing as an inverted pendulum, after the 2001 paper (section 6.1 and appendix A): the
+//! Quiet standing as an inverted pendulum, after the 2001 paper ("Balancing" and the appendix): the
 //! ankles place the centre of pressure, the waist bends when they run out of sole.
 //!
 //! p = c + k (c − c_ref) + d ċ / ω₀ is where the centre of pressure goes, kept inside the soles; the
@@ -6,8 +6,8 @@
 //! example to read first.
 //!
 //! Fails when the capture point leaves the soles by more than bending the waist brings back. It
-//! tolerates small disturbances only; `balance` takes far more. Gains: result of the project's
-//! tuner, in the file.
+//! tolerates small disturbances only; `balance` takes far more. Gains: the output of
+//! `tune`, with seed and cost in `skills/stance.ron`.
 
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Regions of situations, as data: they can be stored, printed, evaluated and explained.
 //!
 //! In the 2001 paper's terms these are the relations on state, environment, contacts and balance
-//! of which pre-conditions, post-conditions and expected performance are made (section 3.2).
+//! of which pre-conditions, post-conditions and expected performance are made.
 
 use std::fmt;
 

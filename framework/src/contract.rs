@@ -1,5 +1,5 @@
 //! What a controller promises: pre-condition, post-condition, expected performance and weight.
-//! (Faloutsos, van de Panne, Terzopoulos 2001, sections 3.1 to 3.4.)
+//! (Faloutsos, van de Panne, Terzopoulos 2001, "Pre-conditions", "Post-conditions", "Expected performance".)
 
 use serde::{Deserialize, Serialize};
 

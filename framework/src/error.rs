@@ -158,13 +158,18 @@ pub fn shortened(text: &str) -> String {
     }
 }
 
-/// The known name most similar to `name` (Jaro–Winkler similarity of at least 0.75), if any.
+/// The known name most similar to `name`, if any is similar: by the letters they share in order
+/// (Jaro–Winkler, at least 0.75), or by few slips of the finger (Damerau–Levenshtein, at least 0.6).
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let name = shortened(name);
+    let similarity = |k: &str| {
+        let letters = strsim::jaro_winkler(&name, k);
+        let slips = strsim::normalized_damerau_levenshtein(&name, k);
+        (letters >= 0.75 || slips >= 0.6).then_some(letters + slips)
+    };
     known
         .into_iter()
-        .map(|k| (strsim::jaro_winkler(&name, k), k))
-        .filter(|(similarity, _)| *similarity >= 0.75)
+        .filter_map(|k| similarity(k).map(|s| (s, k)))
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, k)| k)
 }
@@ -176,6 +181,7 @@ mod tests {
     #[test]
     fn suggests_the_nearest_name_only_when_one_is_near() {
         assert_eq!(nearest("torsoo", ["head", "torso"]), Some("torso"));
+        assert_eq!(nearest("bwo", ["balance", "bow"]), Some("bow"));
         assert_eq!(nearest("xyzzy", ["head", "torso"]), None);
         let text = Error::unknown("link", "tosro", ["head", "torso"]).to_string();
         assert_eq!(

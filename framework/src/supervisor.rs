@@ -1,5 +1,5 @@
 //! Polls a pool of controllers, arbitrates by suitability, delegates, and explains itself.
-//! (Faloutsos, van de Panne, Terzopoulos 2001, section 3 and figure 2.)
+//! (Faloutsos, van de Panne, Terzopoulos 2001, "Controller composition framework" and its figure of one step.)
 //!
 //! sensors → poll pre-conditions → the active controller → torques. A supervisor is itself a
 //! controller, so pools nest.

@@ -182,3 +182,46 @@ fn a_repertoire_can_be_replaced() {
         .success()
         .stdout(predicate::str::contains("fell"));
 }
+
+#[test]
+fn a_skill_in_a_file_works_in_another_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["mine.ron", "nod.ron"] {
+        let text = std::fs::read(format!("examples/mine/{name}")).unwrap();
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let mine = folder.path().join("mine.ron");
+    let run = json(&format!(
+        "run --duration 5 --command 1:nod --repertoire {}",
+        mine.display()
+    ));
+    let switches: Vec<&str> = run["events"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|e| e["to"].as_str())
+        .collect();
+    assert_eq!(switches, ["balance", "nod", "balance"]);
+    assert_eq!(run["end"]["standing"], value!(true));
+}
+
+#[test]
+fn pushes_inside_the_limits_are_stood_with_human_torques() {
+    let model = aplomb::framework::model::Model::load("humanoid").unwrap();
+    for impulse in [30, -28] {
+        let run = json(&format!("run --duration 6 --push 1:torso:{impulse}"));
+        assert_eq!(run["end"]["standing"], value!(true), "{impulse} N·s");
+        assert_eq!(kinds(&run), ["switch", "push"], "{impulse} N·s");
+        for joint in model.joints() {
+            let peak = run["peak_torque"][&joint.name].as_f64().unwrap();
+            assert!(peak <= joint.torque, "{}: {peak} N·m", joint.name);
+        }
+    }
+}
+
+#[test]
+fn the_papers_own_formulation_stands_a_push() {
+    let run = json("run --duration 6 --push 1:torso:20 --repertoire paper");
+    assert_eq!(run["end"]["standing"], value!(true));
+    assert_eq!(kinds(&run), ["switch", "push"]);
+}
