@@ -117,17 +117,6 @@ impl Momentum {
         self.solved = false;
     }
 
-    /// The gains, to be scheduled.
-    pub fn gains_mut(&mut self) -> &mut Gains {
-        &mut self.gains
-    }
-
-    /// The gains.
-    #[must_use]
-    pub fn gains(&self) -> &Gains {
-        &self.gains
-    }
-
     /// Joint torques for this step, N·m. Returns whether a solution stands behind them; without
     /// one (no foot on the ground, no feasible program) the last solution's are used, or none.
     pub fn torques(&mut self, now: &Sensors, reference: &Reference, torques: &mut [f64]) -> bool {

@@ -83,12 +83,6 @@ impl Supervisor {
         self.active.map(|a| a.member)
     }
 
-    /// Place of the fallback in the pool.
-    #[must_use]
-    pub fn fallback_index(&self) -> usize {
-        self.fallback
-    }
-
     fn name(&self, member: usize) -> &str {
         &self.pool[member].controller.contract().name
     }

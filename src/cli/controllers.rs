@@ -7,6 +7,7 @@ use anyhow::Result;
 use aplomb::framework::command::Answer;
 use aplomb::framework::condition::Condition;
 use aplomb::framework::contract::Contract;
+use aplomb::framework::feature::Feature;
 use aplomb::framework::repertoire;
 use aplomb::framework::simulation::Simulation;
 use clap::Args;
@@ -24,13 +25,25 @@ use super::scene::CastArgs;
 #[command(after_help = "\
 Examples:
   aplomb controllers
-  aplomb controllers --repertoire mine.ron --json")]
+  aplomb controllers --repertoire mine.ron --json
+  aplomb controllers --features")]
 pub(super) struct ControllersArgs {
     #[command(flatten)]
     cast: CastArgs,
+    /// Lists the features that conditions can speak of, instead of the controllers
+    #[arg(long)]
+    features: bool,
     /// Prints one JSON value instead of text
     #[arg(long)]
     json: bool,
+}
+
+/// A word of the conditions' vocabulary.
+#[derive(Debug, Serialize)]
+struct Word {
+    name: &'static str,
+    unit: &'static str,
+    meaning: &'static str,
 }
 
 #[derive(Debug, Serialize)]
@@ -51,6 +64,9 @@ struct Row {
 
 impl ControllersArgs {
     pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        if self.features {
+            return list_features(out, self.json);
+        }
         let registry = aplomb::controllers::registry();
         let scenario = self.cast.apply(None, 1.0, &registry)?;
         let simulation = Simulation::new(&scenario, &registry)?;
@@ -72,6 +88,35 @@ impl ControllersArgs {
         }
         Ok(Verdict::Done)
     }
+}
+
+fn list_features(out: &mut dyn Write, json: bool) -> Result<Verdict> {
+    let joints = [
+        ("angle.JOINT", "rad", "angle of a joint"),
+        ("velocity.JOINT", "rad/s", "angular velocity of a joint"),
+    ];
+    let words: Vec<Word> = Feature::vocabulary()
+        .chain(joints)
+        .map(|(name, unit, meaning)| Word {
+            name,
+            unit,
+            meaning,
+        })
+        .collect();
+    if json {
+        serde_json::to_writer(&mut *out, &words)?;
+        writeln!(out)?;
+    } else {
+        for Word {
+            name,
+            unit,
+            meaning,
+        } in words
+        {
+            writeln!(out, "{name:17} {unit:8} {meaning}")?;
+        }
+    }
+    Ok(Verdict::Done)
 }
 
 fn row(contract: &Contract, kinds: &BTreeMap<String, String>) -> Row {

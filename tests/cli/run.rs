@@ -225,3 +225,24 @@ fn the_papers_own_formulation_stands_a_push() {
     assert_eq!(run["end"]["standing"], value!(true));
     assert_eq!(kinds(&run), ["switch", "push"]);
 }
+
+#[test]
+fn the_vocabulary_of_conditions_is_listed() {
+    let words = json("controllers --features");
+    let names: Vec<&str> = words
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|w| w["name"].as_str().unwrap())
+        .collect();
+    assert!(
+        names.contains(&"capture_front") && names.contains(&"angle.JOINT"),
+        "{names:?}"
+    );
+    called("controllers --features")
+        .assert()
+        .success()
+        .stdout(predicate::str::contains(
+            "com_height        1        height",
+        ));
+}
