@@ -259,7 +259,9 @@ pub fn repertoire_with<T: Tunable>(others: &[&str], contract: &Contract, spec: &
 }
 
 /// Searches from a file's own numbers for the least `cost` of a repertoire in text. `others` are
-/// shipped controllers that come before it in the pool. `watch` sees evaluations and the best.
+/// shipped controllers that come before it in the pool. `watch` sees the evaluations so far, the
+/// least cost and the file's text for it, after the first evaluation and then each generation, so
+/// that a search that is stopped has lost nothing. Returns the least cost.
 ///
 /// # Errors
 /// An invalid file.
@@ -268,8 +270,8 @@ pub fn search<T: Tunable>(
     others: &[&str],
     cost: impl Fn(&str) -> Result<f64> + Sync,
     search: Search,
-    watch: impl FnMut(usize, &Best),
-) -> Result<(Contract, T, Best)> {
+    mut watch: impl FnMut(usize, f64, &dyn Fn(&str) -> String),
+) -> Result<f64> {
     let (contract, base) = spec_of::<T>(source)?;
     let start = point_of(&base);
     // A first run, so that an invalid file is an error and not a cost.
@@ -278,9 +280,11 @@ pub fn search<T: Tunable>(
         let text = repertoire_with(others, &contract, &at(&base, point));
         cost(&text).unwrap_or(f64::INFINITY)
     };
-    let best = minimise(&start, search, cost, watch);
-    let spec = at(&base, &best.point);
-    Ok((contract, spec, best))
+    let best = minimise(&start, search, cost, |evaluations, best: &Best| {
+        let text = |header: &str| text_of(&contract, &at(&base, &best.point), header);
+        watch(evaluations, best.cost, &text);
+    });
+    Ok(best.cost)
 }
 
 #[cfg(test)]

@@ -12,30 +12,34 @@ use aplomb_controllers::stance::StanceSpec;
 use aplomb_framework::Result;
 use aplomb_framework::file::{Source, write_atomically};
 use aplomb_framework::registry::ControllerFile;
-use aplomb_training::cma_es::{Best, Search};
+use aplomb_training::cma_es::Search;
 use aplomb_training::tune::{self, Tunable};
 use aplomb_training::{falling, standing};
 
 const USAGE: &str = "tune FILE OUT SEED EVALUATIONS SIGMA LOW HIGH [LOW HIGH]";
 
-/// Optimises one file; returns the new file's text.
+/// Optimises one file; every improvement is written at once.
 fn optimise<T: Tunable>(
     source: &Source,
+    out: &Path,
     others: &[&str],
     search: Search,
     what: &str,
     cost: impl Fn(&str) -> Result<f64> + Sync,
-) -> Result<String> {
-    let watch = |n: usize, best: &Best| eprintln!("{n} evaluations: {:.4}", best.cost);
-    let (contract, spec, best) = tune::search::<T>(source, others, cost, search, watch)?;
-    let Search {
-        seed, evaluations, ..
-    } = search;
-    let header = format!(
-        "Optimised by CMA-ES over {what}, seed {seed}, {evaluations} evaluations: cost {:.4}.",
-        best.cost
-    );
-    Ok(tune::text_of(&contract, &spec, &header))
+) -> Result<()> {
+    let (mut least, mut written) = (f64::INFINITY, Ok(()));
+    tune::search::<T>(source, others, cost, search, |evaluations, cost, text| {
+        eprintln!("{evaluations} evaluations: {cost:.4}");
+        if cost < least {
+            least = cost;
+            let header = format!(
+                "Optimised by CMA-ES over {what}, seed {}, {evaluations} evaluations: cost {cost:.4}.",
+                search.seed
+            );
+            written = write_atomically(out, text(&header).as_bytes());
+        }
+    })?;
+    written
 }
 
 fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
@@ -46,6 +50,18 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     else {
         return Err(USAGE.into());
     };
+    let range = |low: f64, high: f64| low >= 0.0 && low <= high && high <= 1000.0;
+    let fine = (0.0..=1e15).contains(seed)
+        && (1.0..=1e6).contains(evaluations)
+        && (1e-3..=1.0).contains(sigma)
+        && range(*low, *high)
+        && rest.chunks(2).all(|r| r.len() == 2 && range(r[0], r[1]));
+    if !fine {
+        return Err(format!(
+            "{USAGE}: up to 1e6 evaluations, SIGMA 0.001 to 1, LOW to HIGH within 0 to 1000 N·s"
+        )
+        .into());
+    }
     let search = Search {
         sigma: *sigma,
         population: 16,
@@ -55,11 +71,12 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let registry = aplomb_controllers::registry();
     let source = Source::read(Path::new(file))?;
     let kind = source.parse::<ControllerFile>()?.kind;
-    let text = if kind == "fall" {
+    let out = Path::new(out);
+    if kind == "fall" {
         let pushes = falling::pushes(*low, *high, 24);
         let cost = |text: &str| falling::cost(text, &registry, &pushes);
         let what = format!("{} pushes of {low} to {high} N·s either way", pushes.len());
-        optimise::<FallSpec>(&source, &["skills/balance.ron"], search, &what, cost)?
+        optimise::<FallSpec>(&source, out, &["skills/balance.ron"], search, &what, cost)?
     } else {
         let [low2, high2] = rest else {
             return Err(USAGE.into());
@@ -71,10 +88,9 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
             pushes.len()
         );
         match kind.as_str() {
-            "stance" => optimise::<StanceSpec>(&source, &[], search, &what, cost)?,
-            _ => optimise::<BalanceSpec>(&source, &[], search, &what, cost)?,
+            "stance" => optimise::<StanceSpec>(&source, out, &[], search, &what, cost)?,
+            _ => optimise::<BalanceSpec>(&source, out, &[], search, &what, cost)?,
         }
-    };
-    write_atomically(Path::new(out), text.as_bytes())?;
+    }
     Ok(())
 }
