@@ -161,16 +161,17 @@ impl Momentum {
             let bias = self.dynamics.point_bias(foot.link, centre);
             let motion = &self.dynamics.kinematics.links[foot.link];
             let d = self.gains.feet_damping;
+            let stiffness = 0.25 * d * d; // critically damped
             let target = &mut self.feet_target[3 * f..3 * f + 3];
             let mut pull = [0.0; 2];
             if let (false, Some(x)) = (contact.touching(), centre_of_touching) {
                 let p = self.dynamics.kinematics.point(foot.link, centre);
-                pull = [x - p[0], now.ground - p[1]].map(|gap| 0.25 * d * d * gap);
+                pull = [x - p[0], now.ground - p[1]].map(|gap| stiffness * gap);
             }
             target[0] = pull[0] - d * velocity[0] - bias[0];
             target[1] = pull[1] - d * velocity[1] - bias[1];
             // A tilted foot is brought back flat.
-            target[2] = -d * motion.rate - 0.25 * d * d * motion.angle.sin();
+            target[2] = -d * motion.rate - stiffness * motion.angle.sin();
         }
     }
 
@@ -233,15 +234,13 @@ impl Momentum {
     fn solve_equality(&mut self, now: &Sensors, reference: &Reference) -> bool {
         let dof = self.dynamics.dof();
         self.objective(now, reference);
-        let mut touching = false;
-        for (f, foot) in now.feet.iter().enumerate().filter(|(_, f)| f.touching()) {
-            touching |= foot.touching();
+        for f in (0..now.feet.len()).filter(|f| now.feet[*f].touching()) {
             for k in 3 * f..3 * f + 3 {
                 let row = self.problem.equalities.push_row(self.feet_target[k]);
                 row.copy_from_slice(&self.feet[k * dof..(k + 1) * dof]);
             }
         }
-        if !touching || self.solver.solve(&self.problem) != Outcome::Optimal {
+        if now.base_of_support.is_none() || self.solver.solve(&self.problem) != Outcome::Optimal {
             return false;
         }
         self.acceleration.copy_from_slice(self.solver.x());

@@ -121,7 +121,6 @@ impl Body {
         sensors: &mut Sensors,
     ) {
         self.sense_state(bodies, &mut sensors.state);
-        sensors.kinematics.update(&self.model, &sensors.state);
         let mut lowest = f64::INFINITY;
         sensors.feet.fill(FootContact::default());
         for (i, collider) in self.colliders.iter().enumerate() {

@@ -297,6 +297,14 @@ impl Model {
         self.feet.iter().any(|f| parent(f) == Some(link))
     }
 
+    /// Whether the character sits on the link: the root, or a link that a shank hangs on.
+    #[must_use]
+    pub fn is_seat(&self, link: usize) -> bool {
+        let hangs = |l: &Link| l.joint.as_ref().is_some_and(|j| j.parent == link);
+        let mut links = self.links.iter().enumerate();
+        link == 0 || links.any(|(i, l)| self.is_shank(i) && hangs(l))
+    }
+
     /// Whether the link ends in a hand.
     #[must_use]
     pub fn is_hand(&self, link: usize) -> bool {

@@ -2,15 +2,9 @@
 //!
 //! repertoire in text → rollouts → what touched first, impacts, rest → cost.
 
-use std::sync::Arc;
-
-use aplomb_framework::file::Source;
-use aplomb_framework::model::Model;
+use aplomb_framework::Result;
 use aplomb_framework::registry::Registry;
-use aplomb_framework::scenario::Scenario;
 use aplomb_framework::sensors::{Posture, Sensors};
-use aplomb_framework::simulation::Simulation;
-use aplomb_framework::{Result, repertoire};
 
 use crate::standing::{Push, Site};
 
@@ -58,20 +52,15 @@ pub fn pushes(low: f64, high: f64, count: usize) -> Vec<Push> {
 /// # Errors
 /// An invalid repertoire.
 pub fn land(text: &str, registry: &Registry, push: Push) -> Result<Landing> {
-    let mut scenario = Scenario::standing("humanoid", 10.0);
-    scenario.settings.friction = push.friction;
-    let model = Model::load("humanoid")?;
-    let mind = repertoire::build(&Source::new("tuned", text), None, registry, &model)?;
-    let mut run = Simulation::with_cast(&scenario, vec![(Arc::clone(&model), mind)])?;
-    run.run(push.at);
-    run.push(0, push.site.link(&model), push.impulse)?;
+    let mut run = push.begin(text, registry)?;
     let mut landing = Landing::default();
     let mut first: Option<bool> = None;
     let (mut head, mut trunk, mut head_before) = (0.0, 0.0, 0.0);
-    let mix = scenario.settings.dt / FILTER;
+    let mix = run.world().settings().dt / FILTER;
     while run.time() < push.at + SETTLED {
         run.step();
         let now = run.sensors(0);
+        let model = &now.model;
         let force = |link: usize| {
             let f = now.contacts[link].force;
             f[0].hypot(f[1])
@@ -102,7 +91,7 @@ fn first_touch(now: &Sensors, forward: bool) -> Option<bool> {
     let touching = |link: usize| now.contacts[link].touching;
     let hands = model.hands.iter().any(|h| touching(h.link));
     let vital = touching(model.head) || touching(model.trunk);
-    let seat = touching(0) || (!forward && thigh_touches(now));
+    let seat = (0..model.links.len()).any(|l| touching(l) && model.is_seat(l));
     if hands || (seat && !forward) {
         Some(!vital || hands)
     } else if vital {
@@ -110,13 +99,6 @@ fn first_touch(now: &Sensors, forward: bool) -> Option<bool> {
     } else {
         None
     }
-}
-
-fn thigh_touches(now: &Sensors) -> bool {
-    let links = now.model.links.iter().enumerate();
-    links
-        .filter(|(i, _)| now.contacts[*i].touching)
-        .any(|(i, l)| l.joint.as_ref().is_some_and(|j| j.parent == 0) && i != now.model.trunk)
 }
 
 /// Mean over the pushes: unprotected landings, impacts of head and trunk, unrest at the end.

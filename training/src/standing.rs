@@ -74,6 +74,24 @@ pub fn pushes(forward: [f64; 2], backward: [f64; 2], step: f64) -> Vec<Push> {
     all
 }
 
+impl Push {
+    /// A rollout at the moment at which the push begins: the humanoid has stood until then under
+    /// the repertoire in `text`.
+    ///
+    /// # Errors
+    /// An invalid repertoire.
+    pub(crate) fn begin(&self, text: &str, registry: &Registry) -> Result<Simulation> {
+        let mut scenario = Scenario::standing("humanoid", 10.0);
+        scenario.settings.friction = self.friction;
+        let model = Model::load("humanoid")?;
+        let mind = repertoire::build(&Source::new("tuned", text), None, registry, &model)?;
+        let mut run = Simulation::with_cast(&scenario, vec![(Arc::clone(&model), mind)])?;
+        run.run(self.at);
+        run.push(0, self.site.link(&model), self.impulse)?;
+        Ok(run)
+    }
+}
+
 /// How one push went.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Taken {
@@ -95,14 +113,9 @@ pub struct Taken {
 /// # Errors
 /// An invalid repertoire.
 pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
-    let mut scenario = Scenario::standing("humanoid", 10.0);
-    scenario.settings.friction = push.friction;
-    let model = Model::load("humanoid")?;
-    let mind = repertoire::build(&Source::new("tuned", text), None, registry, &model)?;
-    let mut run = Simulation::with_cast(&scenario, vec![(Arc::clone(&model), mind)])?;
-    run.run(push.at);
+    let mut run = push.begin(text, registry)?;
+    // The push acts from the next step on: this is how it stood before.
     let quiet = run.sensors(0).com_velocity[0].abs() < 0.05;
-    run.push(0, push.site.link(&model), push.impulse)?;
     let (mut motion, mut steps, mut slouch, mut lifted) = (0.0, 0.0, 0.0, 0.0);
     let before: Vec<f64> = run.sensors(0).state.angles().to_vec();
     let first = run.actors()[0].mind.active_index();
@@ -138,8 +151,7 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
 }
 
 /// Sum over the pushes: 1 for each that is not stood (less the longer it lasted), and a little for
-/// slow recovery, for a pose that is not regained, for
-/// lifted feet and for needless motion.
+/// slow recovery, for a pose that is not regained, for lifted feet and for needless motion.
 ///
 /// # Errors
 /// An invalid repertoire.

@@ -7,6 +7,7 @@ use std::fmt::Write;
 use aplomb_controllers::balance::BalanceSpec;
 use aplomb_controllers::fall::FallSpec;
 use aplomb_controllers::stance::StanceSpec;
+use aplomb_controllers::target::NamedAngles;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::file::{Source, options};
 use aplomb_framework::registry::ControllerFile;
@@ -26,6 +27,14 @@ pub trait Tunable: Sized + Clone + Serialize + serde::de::DeserializeOwned + Syn
     fn slot(&mut self, name: &str) -> &mut f64;
     /// Makes numbers that depend on others fit them.
     fn settle(&mut self) {}
+}
+
+/// Feet flat and trunk upright: the ankles and hips share the knees' bend.
+fn share_bend(pose: &mut NamedAngles) {
+    let knee = pose.get("knee").copied().unwrap_or(0.0);
+    for joint in ["hip", "ankle"] {
+        pose.insert(joint.to_owned(), -0.5 * knee);
+    }
 }
 
 impl Tunable for BalanceSpec {
@@ -82,10 +91,7 @@ impl Tunable for BalanceSpec {
     }
 
     fn settle(&mut self) {
-        // Feet flat and trunk upright: the ankles and hips share the knees' bend.
-        let knee = *self.slot("pose.knee");
-        *self.slot("pose.hip") = -0.5 * knee;
-        *self.slot("pose.ankle") = -0.5 * knee;
+        share_bend(&mut self.pose);
         let g = &mut self.gains;
         g.dl_height = 2.0 * g.kl_height.sqrt();
     }
@@ -123,9 +129,7 @@ impl Tunable for StanceSpec {
     }
 
     fn settle(&mut self) {
-        let knee = *self.slot("pose.knee");
-        *self.slot("pose.hip") = -0.5 * knee;
-        *self.slot("pose.ankle") = -0.5 * knee;
+        share_bend(&mut self.pose);
     }
 }
 

@@ -55,8 +55,6 @@ impl Fall {
 
 /// Which part of the body a link is.
 fn part(model: &Model, link: usize) -> Part {
-    let parent = |l: usize| model.links[l].joint.as_ref().map(|j| j.parent);
-    let thigh = (0..model.links.len()).any(|l| model.is_shank(l) && parent(l) == Some(link));
     if model.is_foot(link) {
         Part::Foot
     } else if model.is_shank(link) {
@@ -65,7 +63,7 @@ fn part(model: &Model, link: usize) -> Part {
         Part::Hand
     } else if link == model.head {
         Part::Head
-    } else if link == 0 || thigh {
+    } else if model.is_seat(link) {
         Part::Seat
     } else if link == model.trunk {
         Part::Trunk
