@@ -205,6 +205,25 @@ impl Model {
         model
     }
 
+    /// The same character with stronger or weaker muscles and heavier or lighter links: factors of
+    /// all torque limits, and of all masses and inertias.
+    #[must_use]
+    pub fn varied(self: &Arc<Self>, torque: f64, mass: f64) -> Arc<Self> {
+        if (torque, mass) == (1.0, 1.0) {
+            return Arc::clone(self);
+        }
+        let mut model = Self::clone(self);
+        for link in &mut model.links {
+            link.mass *= mass;
+            link.inertia *= mass;
+            if let Some(joint) = &mut link.joint {
+                joint.torque *= torque;
+            }
+        }
+        model.total_mass *= mass;
+        Arc::new(model)
+    }
+
     /// Number of degrees of freedom: three of the root and one a joint.
     #[must_use]
     pub fn dof(&self) -> usize {

@@ -238,7 +238,8 @@ impl Scenario {
         Ok(scenario)
     }
 
-    /// Sets a parameter: one that the scenario declares, or `friction`, `gravity`, `duration`.
+    /// Sets a parameter: one that the scenario declares, or `friction`, `gravity`, `torque`, `mass`
+    /// (of [`Settings`]), `duration`.
     ///
     /// # Errors
     /// An unknown name, or a value out of bounds.
@@ -249,10 +250,12 @@ impl Scenario {
             }
             "friction" => self.settings.friction = value,
             "gravity" => self.settings.gravity = value,
+            "torque" => self.settings.torque = value,
+            "mass" => self.settings.mass = value,
             "duration" => self.duration = value,
             _ => {
                 let own = self.parameters.keys().map(String::as_str);
-                let known = own.chain(["friction", "gravity", "duration"]);
+                let known = own.chain(["friction", "gravity", "torque", "mass", "duration"]);
                 return Err(Error::unknown("parameter", name, known));
             }
         }

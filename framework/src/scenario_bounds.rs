@@ -39,6 +39,8 @@ impl Scenario {
         )?;
         check("settings.contact_damping", s.contact_damping, 0.0, 100.0)?;
         check("settings.iterations", s.iterations as f64, 1.0, 64.0)?;
+        check("settings.torque", s.torque, 0.01, 100.0)?;
+        check("settings.mass", s.mass, 0.01, 100.0)?;
         check(
             "characters",
             self.characters.len() as f64,

@@ -30,6 +30,10 @@ pub struct Settings {
     pub contact_damping: f64,
     /// Solver iterations a step.
     pub iterations: usize,
+    /// Largest torques of all muscles, relative to the character's. Controllers do not know.
+    pub torque: f64,
+    /// Mass and inertia of all links, relative to the character's. Controllers do not know.
+    pub mass: f64,
 }
 
 impl Default for Settings {
@@ -41,6 +45,8 @@ impl Default for Settings {
             contact_frequency: 240.0,
             contact_damping: 10.0,
             iterations: 4,
+            torque: 1.0,
+            mass: 1.0,
         }
     }
 }
@@ -203,18 +209,20 @@ impl World {
         self.steps as f64 * self.settings.dt
     }
 
-    /// Adds a character in a state; returns its place in [`Self::characters`].
+    /// Adds a character in a state, as strong and heavy as the settings have it; returns its place
+    /// in [`Self::characters`].
     pub fn spawn(&mut self, model: &Arc<Model>, state: &State) -> usize {
         let layer = self.characters.len() as u8;
+        let varied = model.varied(self.settings.torque, self.settings.mass);
         let body = Body::spawn(
-            model,
+            &varied,
             state,
             layer,
             &mut self.bodies,
             &mut self.colliders,
             &mut self.impulse_joints,
         );
-        let sensors = Sensors::new(model, self.settings.gravity);
+        let sensors = Sensors::new(&varied, self.settings.gravity);
         self.characters.push(Character { body, sensors });
         self.characters.len() - 1
     }
