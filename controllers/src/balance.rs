@@ -41,6 +41,9 @@ pub struct BalanceSpec {
     pub joint_weights: NamedAngles,
     /// Reference centre of mass ahead of the middle of the soles, m.
     pub com_ahead: f64,
+    /// How fast the reference rises from where the centre of mass was found, m/s; at once if left
+    /// out. For standing up from a crouch.
+    pub climb: Option<f64>,
 }
 
 impl Default for BalanceSpec {
@@ -51,6 +54,7 @@ impl Default for BalanceSpec {
             pose: NamedAngles::new(),
             joint_weights: NamedAngles::new(),
             com_ahead: 0.0,
+            climb: None,
         }
     }
 }
@@ -62,6 +66,7 @@ pub struct Balance {
     momentum: Momentum,
     reference: Reference,
     com_ahead: f64,
+    climb: Option<f64>,
     /// Height of the centre of mass in the reference pose, m.
     height: f64,
     servo: Servo,
@@ -76,6 +81,7 @@ impl Spec for BalanceSpec {
         let place = contract.name.clone();
         self.gains.validate(&place)?;
         bounded(&place, "com_ahead", self.com_ahead, -0.2, 0.2)?;
+        bounded(&place, "climb", self.climb.unwrap_or(1.0), 0.01, 10.0)?;
         let mut pose = vec![0.0; model.joint_count()];
         overlay(model, &self.pose, "pose", [-7.0, 7.0], &mut pose)?;
         let mut weights = vec![1.0; model.joint_count()];
@@ -97,6 +103,7 @@ impl Spec for BalanceSpec {
                 pitch: 0.0,
             },
             com_ahead: self.com_ahead,
+            climb: self.climb,
             servo: Servo::new(model, 0.5, 1.0),
             time: 0.0,
             contract,
@@ -132,10 +139,16 @@ impl Controller for Balance {
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
         if let Some(centre) = now.support_centre() {
             // Glides there, so that taking over from another stance is no jerk.
-            let step = GLIDE * (now.time - self.time).clamp(0.0, 0.1);
+            let passed = (now.time - self.time).clamp(0.0, 0.1);
             let goal = centre + self.com_ahead;
             let x = self.reference.com[0];
-            self.reference.com = [x + (goal - x).clamp(-step, step), now.ground + self.height];
+            let step = GLIDE * passed;
+            let top = now.ground + self.height;
+            let y = match self.climb {
+                Some(climb) => top.min(self.reference.com[1] + climb * passed),
+                None => top,
+            };
+            self.reference.com = [x + (goal - x).clamp(-step, step), y];
         }
         self.time = now.time;
         let on_ground = now.base_of_support.is_some();

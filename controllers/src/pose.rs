@@ -33,16 +33,16 @@ pub struct PoseState {
     /// s after which the next state begins.
     pub duration: f64,
     /// Part of the duration over which the targets ease in; then they hold.
-    #[serde(default = "most")]
+    #[serde(default = "most", skip_serializing_if = "is_most")]
     pub ease: f64,
     /// Ends the state early when it holds.
-    #[serde(default = "never")]
+    #[serde(default = "never", skip_serializing_if = "is_never")]
     pub until: Condition,
     /// Stiffness relative to the nominal servos.
-    #[serde(default = "one")]
+    #[serde(default = "one", skip_serializing_if = "is_one")]
     pub stiffness: f64,
     /// The state that follows, from 0; the next one if left out.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub next: Option<usize>,
 }
 
@@ -56,6 +56,22 @@ fn one() -> f64 {
 
 fn never() -> Condition {
     Condition::Never
+}
+
+fn is_most(x: &f64) -> bool {
+    *x == most()
+}
+
+fn is_one(x: &f64) -> bool {
+    *x == one()
+}
+
+fn is_never(c: &Condition) -> bool {
+    *c == Condition::Never
+}
+
+fn is_false(b: &bool) -> bool {
+    !b
 }
 
 /// Adds gain × feature to a joint's target.
@@ -77,19 +93,19 @@ pub struct PoseSpec {
     /// The machine; it begins with the first.
     pub states: Vec<PoseState>,
     /// Rules that act in all states.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub feedback: Vec<Feedback>,
     /// Swaps left and right.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_false")]
     pub mirror: bool,
     /// Damping relative to the nominal servos.
-    #[serde(default = "one")]
+    #[serde(default = "one", skip_serializing_if = "is_one")]
     pub damping: f64,
     /// A parameter of the command that scales all targets; none by default.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scaled_by: Option<String>,
     /// A parameter of the command that scales all durations; none by default.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowed_by: Option<String>,
 }
 

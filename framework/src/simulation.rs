@@ -209,6 +209,11 @@ impl Simulation {
         &self.actors
     }
 
+    /// Gives a character another mind, which takes over in the next step.
+    pub fn set_mind(&mut self, character: usize, mind: Supervisor) {
+        self.actors[character].mind = mind;
+    }
+
     /// What a character sensed in the last step.
     #[must_use]
     pub fn sensors(&self, character: usize) -> &Sensors {

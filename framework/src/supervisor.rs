@@ -66,6 +66,23 @@ impl Supervisor {
         })
     }
 
+    /// The same pool with another controller in the place of the one with its name.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if there is none with its name; what makes a pool invalid.
+    pub fn with_replaced(&self, controller: Box<dyn Controller>) -> Result<Self> {
+        let name = &controller.contract().name;
+        let place = self.pool.iter().position(|m| m.controller.contract().name == *name);
+        let Some(place) = place else {
+            let known = self.controllers().map(|c| c.contract().name.as_str());
+            return Err(Error::unknown("controller", name, known));
+        };
+        let mut pool: Vec<_> = self.pool.iter().map(|m| m.controller.clone()).collect();
+        pool[place] = controller;
+        let fallback = self.name(self.fallback).to_owned();
+        Self::new(&self.contract.name, pool, &fallback)
+    }
+
     /// The pool.
     pub fn controllers(&self) -> impl Iterator<Item = &dyn Controller> {
         self.pool.iter().map(|m| &*m.controller)

@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dimension {
     /// Where it goes.
-    pub name: &'static str,
+    pub name: String,
     /// At 0.
     pub low: f64,
     /// At 1.
@@ -15,9 +15,9 @@ pub struct Dimension {
 
 /// A number whose steps are differences.
 #[must_use]
-pub const fn linear(name: &'static str, low: f64, high: f64) -> Dimension {
+pub fn linear(name: impl Into<String>, low: f64, high: f64) -> Dimension {
     Dimension {
-        name,
+        name: name.into(),
         low,
         high,
         logarithmic: false,
@@ -26,9 +26,9 @@ pub const fn linear(name: &'static str, low: f64, high: f64) -> Dimension {
 
 /// A positive number whose steps are factors.
 #[must_use]
-pub const fn logarithmic(name: &'static str, low: f64, high: f64) -> Dimension {
+pub fn logarithmic(name: impl Into<String>, low: f64, high: f64) -> Dimension {
     Dimension {
-        name,
+        name: name.into(),
         low,
         high,
         logarithmic: true,

@@ -9,5 +9,8 @@
 pub mod cma_es;
 pub mod dimension;
 pub mod falling;
+pub mod rising;
 pub mod standing;
+pub mod starts;
 pub mod tune;
+pub mod worlds;

@@ -2,6 +2,8 @@
 //!
 //! controller file → dimensions → CMA-ES over rollouts → controller file, with seed and cost.
 
+mod pose;
+
 use std::fmt::Write;
 
 use aplomb_controllers::balance::BalanceSpec;
@@ -10,6 +12,7 @@ use aplomb_controllers::stance::StanceSpec;
 use aplomb_controllers::target::NamedAngles;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::file::{Source, options};
+use aplomb_framework::model::Model;
 use aplomb_framework::registry::ControllerFile;
 use aplomb_framework::{Error, Result};
 use serde::Serialize;
@@ -22,7 +25,7 @@ pub trait Tunable: Sized + Clone + Serialize + serde::de::DeserializeOwned + Syn
     /// The `kind` of its files.
     const KIND: &'static str;
     /// What is optimised.
-    fn dimensions() -> Vec<Dimension>;
+    fn dimensions(&self, model: &Model) -> Vec<Dimension>;
     /// The number of a dimension, to be read or set.
     fn slot(&mut self, name: &str) -> &mut f64;
     /// Makes numbers that depend on others fit them.
@@ -40,7 +43,7 @@ fn share_bend(pose: &mut NamedAngles) {
 impl Tunable for BalanceSpec {
     const KIND: &'static str = "balance";
 
-    fn dimensions() -> Vec<Dimension> {
+    fn dimensions(&self, _: &Model) -> Vec<Dimension> {
         vec![
             logarithmic("kl", 5.0, 400.0),
             logarithmic("dl", 3.0, 80.0),
@@ -100,7 +103,7 @@ impl Tunable for BalanceSpec {
 impl Tunable for StanceSpec {
     const KIND: &'static str = "stance";
 
-    fn dimensions() -> Vec<Dimension> {
+    fn dimensions(&self, _: &Model) -> Vec<Dimension> {
         vec![
             linear("com_ahead", -0.05, 0.03),
             logarithmic("position_gain", 0.2, 10.0),
@@ -136,7 +139,7 @@ impl Tunable for StanceSpec {
 impl Tunable for FallSpec {
     const KIND: &'static str = "fall";
 
-    fn dimensions() -> Vec<Dimension> {
+    fn dimensions(&self, _: &Model) -> Vec<Dimension> {
         vec![
             linear("forward.reach.waist", -0.6, 0.4),
             linear("forward.reach.shoulder", 0.6, 2.2),
@@ -190,13 +193,13 @@ impl Tunable for FallSpec {
 
 /// The spec at a point of the unit cube.
 #[must_use]
-pub fn at<T: Tunable>(base: &T, point: &[f64]) -> T {
+pub fn at<T: Tunable>(base: &T, model: &Model, point: &[f64]) -> T {
     let mut spec = base.clone();
-    for (d, u) in T::dimensions().iter().zip(point) {
+    for (d, u) in base.dimensions(model).iter().zip(point) {
         // Five digits are more than the search can tell apart, and read well.
         let value = d.value(*u);
         let digits = (4 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 9) as usize;
-        *spec.slot(d.name) = format!("{value:.digits$}").parse().unwrap_or(value);
+        *spec.slot(&d.name) = format!("{value:.digits$}").parse().unwrap_or(value);
     }
     spec.settle();
     spec
@@ -204,11 +207,11 @@ pub fn at<T: Tunable>(base: &T, point: &[f64]) -> T {
 
 /// The point of the unit cube that a spec stands at.
 #[must_use]
-pub fn point_of<T: Tunable>(spec: &T) -> Vec<f64> {
+pub fn point_of<T: Tunable>(spec: &T, model: &Model) -> Vec<f64> {
     let mut spec = spec.clone();
-    T::dimensions()
+    spec.dimensions(model)
         .iter()
-        .map(|d| d.unit(*spec.slot(d.name)))
+        .map(|d| d.unit(*spec.slot(&d.name)))
         .collect()
 }
 
@@ -240,7 +243,7 @@ pub fn text_of<T: Tunable>(contract: &Contract, spec: &T, header: &str) -> Strin
         contract,
         spec,
     };
-    let pretty = ron::ser::PrettyConfig::new().struct_names(false);
+    let pretty = ron::ser::PrettyConfig::new().struct_names(false).depth_limit(3);
     let body = options()
         .to_string_pretty(&file, pretty)
         .unwrap_or_default();
@@ -277,15 +280,16 @@ pub fn search<T: Tunable>(
     mut watch: impl FnMut(usize, f64, &dyn Fn(&str) -> String),
 ) -> Result<f64> {
     let (contract, base) = spec_of::<T>(source)?;
-    let start = point_of(&base);
+    let model = Model::load("humanoid")?;
+    let start = point_of(&base, &model);
     // A first run, so that an invalid file is an error and not a cost.
     cost(&repertoire_with(others, &contract, &base))?;
     let cost = |point: &[f64]| {
-        let text = repertoire_with(others, &contract, &at(&base, point));
+        let text = repertoire_with(others, &contract, &at(&base, &model, point));
         cost(&text).unwrap_or(f64::INFINITY)
     };
     let best = minimise(&start, search, cost, |evaluations, best: &Best| {
-        let text = |header: &str| text_of(&contract, &at(&base, &best.point), header);
+        let text = |header: &str| text_of(&contract, &at(&base, &model, &best.point), header);
         watch(evaluations, best.cost, &text);
     });
     Ok(best.cost)
@@ -303,12 +307,13 @@ mod tests {
     #[test]
     fn a_spec_survives_the_unit_cube_and_its_file() {
         let (contract, spec) = spec_of::<BalanceSpec>(&shipped("skills/balance.ron")).unwrap();
-        let same = at(&spec, &point_of(&spec));
+        let model = Model::load("humanoid").unwrap();
+        let same = at(&spec, &model, &point_of(&spec, &model));
         let text = text_of(&contract, &same, "Why.\nHow.");
         assert!(text.starts_with("// Why.\n// How.\n("), "{text}");
         let (again, back) = spec_of::<BalanceSpec>(&Source::new("x", text)).unwrap();
         assert_eq!((again, &back), (contract, &same));
-        for (a, b) in point_of(&back).iter().zip(point_of(&spec)) {
+        for (a, b) in point_of(&back, &model).iter().zip(point_of(&spec, &model)) {
             assert!((a - b).abs() < 1e-3, "{a} {b}");
         }
     }

@@ -1,0 +1,107 @@
+//! Situations in which a controller takes over: heaps on the floor and falls, in randomised worlds.
+//!
+//! seed, index → random heap or push → rollout under the rest of the repertoire until the
+//! controller's pre-condition holds → [`Simulation`] to be cloned for every candidate.
+
+use std::sync::Arc;
+
+use aplomb_framework::Result;
+use aplomb_framework::contract::Contract;
+use aplomb_framework::model::Model;
+use aplomb_framework::scenario::Scenario;
+use aplomb_framework::simulation::Simulation;
+use aplomb_framework::supervisor::Supervisor;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use crate::worlds::Worlds;
+
+/// s for which a start is waited for.
+const LONGEST: f64 = 7.0;
+/// Gap under a heap before it drops, m.
+const DROP: f64 = 0.02;
+/// N·s; pushes that nobody withstands.
+const PUSHES: [f64; 2] = [70.0, 260.0];
+/// s; when characters are pushed.
+const PUSH_AT: f64 = 0.3;
+
+/// Where starts come from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Source {
+    /// The worlds.
+    pub worlds: Worlds,
+    /// Part of the starts that begin as heaps; the others are pushed over.
+    pub heaps: f64,
+    /// Fixes everything random.
+    pub seed: u64,
+}
+
+/// The first `count` starts, by index, in which the repertoire hands over to the controller with this
+/// contract, or, if it acts only on command, in which its pre-condition holds.
+///
+/// # Errors
+/// A mind for another character.
+pub fn starts(
+    source: Source,
+    count: usize,
+    model: &Arc<Model>,
+    contract: &Contract,
+    before: &Supervisor,
+) -> Result<Vec<Simulation>> {
+    let mut found: Vec<Simulation> = Vec::with_capacity(count);
+    let mut next = 0;
+    // In batches of fixed size, so that the number of threads changes nothing.
+    while found.len() < count && next < 200 * count {
+        let batch: Vec<Option<Simulation>> = (next..next + 32)
+            .into_par_iter()
+            .map(|i| start(source, i as u64, model, contract, before))
+            .collect::<Result<_>>()?;
+        found.extend(batch.into_iter().flatten());
+        next += 32;
+    }
+    found.truncate(count);
+    Ok(found)
+}
+
+fn start(
+    source: Source,
+    index: u64,
+    model: &Arc<Model>,
+    contract: &Contract,
+    before: &Supervisor,
+) -> Result<Option<Simulation>> {
+    let mut rng = ChaCha8Rng::seed_from_u64(source.seed);
+    rng.set_stream(index);
+    let mut scenario = Scenario::standing(&model.name, LONGEST);
+    scenario.settings = source.worlds.draw(&mut rng);
+    let heap = rng.gen_range(0.0..1.0) < source.heaps;
+    if heap {
+        let start = &mut scenario.characters[0].start;
+        for joint in model.joints() {
+            let [low, high] = joint.range;
+            start
+                .angles
+                .insert(joint.name.clone(), rng.gen_range(low..high));
+        }
+        start.pitch = rng.gen_range(-std::f64::consts::PI..std::f64::consts::PI);
+        start.lift = DROP;
+    }
+    let mut run = Simulation::with_cast(&scenario, vec![(Arc::clone(model), before.clone())])?;
+    if !heap {
+        run.run(PUSH_AT);
+        let link = [0, model.trunk, model.head][rng.gen_range(0..3)];
+        let impulse = rng.gen_range(PUSHES[0]..PUSHES[1]);
+        let sign = if rng.gen_range(0..2) == 0 { 1.0 } else { -1.0 };
+        run.push(0, &model.links[link].name, sign * impulse)?;
+    }
+    while run.time() < LONGEST {
+        run.step();
+        let mind = &run.actors()[0].mind;
+        let taken = mind.active() == Some(&contract.name);
+        if taken || contract.weight == 0 && contract.precondition.holds(run.sensors(0)) {
+            return Ok(Some(run));
+        }
+    }
+    Ok(None)
+}
