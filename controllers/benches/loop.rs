@@ -82,6 +82,7 @@ fn quadratic_program(bencher: Bencher, formulation: &str) {
         pose: vec![0.0; joints],
         rates: vec![0.0; joints],
         pitch: 0.0,
+        swing: None,
     };
     let mut torques = vec![0.0; joints];
     assert!(momentum.torques(&now, &reference, &mut torques));

@@ -101,6 +101,7 @@ impl Spec for BalanceSpec {
                 rates: vec![0.0; pose.len()],
                 pose,
                 pitch: 0.0,
+                swing: None,
             },
             com_ahead: self.com_ahead,
             climb: self.climb,
@@ -112,7 +113,7 @@ impl Spec for BalanceSpec {
 }
 
 /// Height of the centre of mass above the lowest point of a pose with the root upright, m.
-fn com_height(model: &Model, pose: &[f64]) -> f64 {
+pub(crate) fn com_height(model: &Model, pose: &[f64]) -> f64 {
     let mut state = State::standing(model);
     state.q[3..].copy_from_slice(pose);
     simulation::put_on_ground(model, &mut state, 0.0);

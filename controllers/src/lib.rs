@@ -21,6 +21,7 @@ pub mod quadratic_program;
 pub mod rest;
 pub mod servo;
 pub mod stance;
+pub mod step;
 pub mod target;
 
 use aplomb_framework::registry::Registry;
@@ -31,6 +32,7 @@ pub fn registry() -> Registry {
     let registry = Registry::new()
         .with::<balance::BalanceSpec>()
         .with::<stance::StanceSpec>()
+        .with::<step::StepSpec>()
         .with::<fall::FallSpec>()
         .with::<rest::RestSpec>()
         .with::<pose::PoseSpec>();

@@ -49,6 +49,25 @@ pub struct Reference {
     pub rates: Vec<f64>,
     /// Pitch of the root, rad.
     pub pitch: f64,
+    /// A foot that is not to carry but to move, if any.
+    pub swing: Option<Swing>,
+}
+
+/// Where the sole of a foot is to move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swing {
+    /// Place of the foot in the model's feet.
+    pub foot: usize,
+    /// The middle of the sole, m, world.
+    pub position: [f64; 2],
+    /// m/s
+    pub velocity: [f64; 2],
+    /// Pitch of the sole, rad.
+    pub angle: f64,
+    /// Stiffness of the tracking, 1/s²; it is critically damped.
+    pub stiffness: f64,
+    /// Weight of the tracking in the program.
+    pub weight: f64,
 }
 
 /// A lever of half a metre makes angular momentum comparable to linear.
@@ -77,6 +96,10 @@ pub struct Momentum {
     /// When the next solution is due, s.
     due: f64,
     solved: bool,
+    /// The foot of the reference's swing.
+    swinging: Option<usize>,
+    /// Weight of its motion.
+    swing_weight: f64,
 }
 
 impl Momentum {
@@ -108,6 +131,8 @@ impl Momentum {
             wrench: vec![0.0; 3 * feet],
             due: f64::NEG_INFINITY,
             solved: false,
+            swinging: None,
+            swing_weight: 0.0,
         }
     }
 
@@ -121,7 +146,9 @@ impl Momentum {
     /// one (no foot on the ground, no feasible program) the last solution's are used, or none.
     pub fn torques(&mut self, now: &Sensors, reference: &Reference, torques: &mut [f64]) -> bool {
         self.dynamics.update(&self.model, &now.state, now.gravity);
-        self.feet_jacobians(now);
+        self.swinging = reference.swing.map(|s| s.foot);
+        self.swing_weight = reference.swing.map_or(0.0, |s| s.weight);
+        self.feet_jacobians(now, reference);
         if now.time >= self.due - 1e-9 {
             self.due = now.time + self.gains.period;
             let outcome = match self.formulation {
@@ -147,13 +174,22 @@ impl Momentum {
         }
     }
 
-    fn feet_jacobians(&mut self, now: &Sensors) {
+    /// Whether a foot touches and is to carry.
+    fn carries(&self, f: usize, now: &Sensors) -> bool {
+        now.feet[f].touching() && self.swinging != Some(f)
+    }
+
+    fn feet_jacobians(&mut self, now: &Sensors, reference: &Reference) {
         let n = self.dynamics.dof();
         let centre_of_touching = now.support_centre();
         for (f, foot) in self.model.feet.iter().enumerate() {
             let rows = &mut self.feet[3 * f * n..3 * (f + 1) * n];
             let contact = &now.feet[f];
-            let centre = pivot(foot, contact);
+            let swing = reference.swing.filter(|s| s.foot == f);
+            let centre = match swing {
+                Some(_) => sole_centre(foot),
+                None => pivot(foot, contact),
+            };
             let (position, angle) = rows.split_at_mut(2 * n);
             self.dynamics.point_jacobian(foot.link, centre, position);
             self.dynamics.angle_jacobian(foot.link, angle);
@@ -163,6 +199,17 @@ impl Momentum {
             let d = self.gains.feet_damping;
             let stiffness = 0.25 * d * d; // critically damped
             let target = &mut self.feet_target[3 * f..3 * f + 3];
+            if let Some(s) = swing {
+                let p = self.dynamics.kinematics.point(foot.link, centre);
+                let damping = 2.0 * s.stiffness.sqrt();
+                for k in 0..2 {
+                    target[k] = s.stiffness * (s.position[k] - p[k])
+                        + damping * (s.velocity[k] - velocity[k])
+                        - bias[k];
+                }
+                target[2] = s.stiffness * (s.angle - motion.angle).sin() - damping * motion.rate;
+                continue;
+            }
             let mut pull = [0.0; 2];
             if let (false, Some(x)) = (contact.touching(), centre_of_touching) {
                 let p = self.dynamics.kinematics.point(foot.link, centre);
@@ -175,6 +222,14 @@ impl Momentum {
         }
     }
 
+    /// Rear and front end of what the carrying feet touch with, world x, m: where the centre of
+    /// pressure can be. Shorter than the base of support when a foot stands on its edge.
+    fn carrying_span(&self, now: &Sensors) -> Option<[f64; 2]> {
+        let carrying = (0..now.feet.len()).filter(|f| self.carries(*f, now));
+        let ends = carrying.filter_map(|f| now.feet[f].support);
+        ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+    }
+
     /// (L̇_des, Ḣ_des) (1), with the centre of pressure of the force clamped to the support.
     fn desired_momentum(&self, now: &Sensors, reference: &Reference) -> [f64; 3] {
         let (g, m) = (&self.gains, self.model.total_mass());
@@ -184,7 +239,7 @@ impl Momentum {
             * (g.kl_height * (reference.com[1] - c[1])
                 + g.dl_height * (reference.com_velocity[1] - v[1]));
         let mut h = -g.dh * now.angular_momentum;
-        if let Some([rear, front]) = now.contact_span() {
+        if let Some([rear, front]) = self.carrying_span(now) {
             let fy = (ly + m * now.gravity).max(0.2 * m * now.gravity);
             let height = now.com_height();
             let cop = c[0] - height * lx / fy;
@@ -234,7 +289,10 @@ impl Momentum {
     fn solve_equality(&mut self, now: &Sensors, reference: &Reference) -> bool {
         let dof = self.dynamics.dof();
         self.objective(now, reference);
-        for f in (0..now.feet.len()).filter(|f| now.feet[*f].touching()) {
+        for f in 0..now.feet.len() {
+            if !self.carries(f, now) {
+                continue;
+            }
             for k in 3 * f..3 * f + 3 {
                 let row = self.problem.equalities.push_row(self.feet_target[k]);
                 row.copy_from_slice(&self.feet[k * dof..(k + 1) * dof]);
@@ -259,7 +317,10 @@ impl Momentum {
             )
         };
         let rows = |f: usize| 3 * f..3 * f + 3;
-        for f in (0..now.feet.len()).filter(|f| now.feet[*f].touching()) {
+        for f in 0..now.feet.len() {
+            if !self.carries(f, now) {
+                continue;
+            }
             for k in rows(f) {
                 gram += root(k) * root(k).transpose();
             }
@@ -270,7 +331,7 @@ impl Momentum {
         let share = inverse * carried;
         for f in 0..now.feet.len() {
             for k in rows(f) {
-                let on = now.feet[f].touching();
+                let on = self.carries(f, now);
                 self.wrench[k] = if on { root(k).dot(&share) } else { 0.0 };
             }
         }
@@ -284,11 +345,16 @@ fn pivot(foot: &Foot, contact: &FootContact) -> Point {
     match (contact.heel, contact.toe) {
         (true, false) => foot.heel,
         (false, true) => foot.toe,
-        _ => [
-            0.5 * (foot.heel[0] + foot.toe[0]),
-            0.5 * (foot.heel[1] + foot.toe[1]),
-        ],
+        _ => sole_centre(foot),
     }
+}
+
+/// The middle of the sole, in the foot's frame.
+pub(crate) fn sole_centre(foot: &Foot) -> Point {
+    [
+        0.5 * (foot.heel[0] + foot.toe[0]),
+        0.5 * (foot.heel[1] + foot.toe[1]),
+    ]
 }
 
 /// Adds weight × (row·x − target)² / 2 to the objective.

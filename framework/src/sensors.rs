@@ -152,14 +152,6 @@ impl Sensors {
         sensors
     }
 
-    /// Rear and front end of what the feet really touch, world x, m: where the centre of pressure
-    /// can be. Shorter than the base of support when a foot stands on its edge.
-    #[must_use]
-    pub fn contact_span(&self) -> Option<[f64; 2]> {
-        let spans = self.feet.iter().filter_map(|f| f.support);
-        spans.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
-    }
-
     /// Height of the centre of mass above the ground, m.
     #[must_use]
     pub fn com_height(&self) -> f64 {

@@ -28,6 +28,7 @@ impl Momentum {
                 let i = dof + 3 * f + k;
                 self.problem.h[i * n + i] += 1e-3;
                 let weight = match (foot.touching(), foot.heel && foot.toe, k) {
+                    _ if self.swinging == Some(f) => self.swing_weight,
                     (false, ..) => self.gains.lifted,
                     (true, false, 2) => self.gains.tilted,
                     (true, ..) => self.gains.feet,
@@ -72,7 +73,7 @@ impl Momentum {
 
     /// Centre of pressure inside what touches, friction cone; no force from what does not touch.
     fn contact_rows(&mut self, f: usize, contact: &FootContact, at: usize) {
-        if !contact.touching() {
+        if !contact.touching() || self.swinging == Some(f) {
             for k in 0..3 {
                 self.problem.equalities.push_row(0.0)[at + k] = 1.0;
             }
