@@ -110,3 +110,13 @@ fn results_are_told_in_words() {
         .stdout(predicate::str::contains("standing at the end  2 (100.0 %;"))
         .stderr("");
 }
+
+#[test]
+fn who_falls_limp_lets_go_and_breaks_no_fall() {
+    let options = "--count 4 --max-impulse 250 --min-impulse 200 --duration 2";
+    let trials = json(&format!("trials --repertoire limp {options}"));
+    let pool = trials["controllers"].as_object().unwrap();
+    assert_eq!(pool.keys().collect::<Vec<_>>(), ["balance", "rest"]);
+    assert_eq!((&trials["standing"], &trials["fell"]), (&0.into(), &4.into()));
+    assert_eq!(trials["controllers"]["rest"]["activations"], 4);
+}
