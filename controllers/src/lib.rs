@@ -51,6 +51,7 @@ macro_rules! shipped {
 const FILES: &[(&str, &str)] = shipped![
     "poses/bow.ron",
     "repertoires/humanoid.ron",
+    "repertoires/limp.ron",
     "repertoires/paper.ron",
     "skills/balance.ron",
     "skills/balance_equality.ron",

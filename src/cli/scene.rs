@@ -26,7 +26,8 @@ pub(super) struct SceneArgs {
     scenario: Option<String>,
     #[command(flatten)]
     cast: CastArgs,
-    /// Sets a parameter of the scenario, or friction, gravity (m/s²) or duration (s); repeatable
+    /// Sets a parameter of the scenario, or friction, gravity (m/s²), torque, mass (relative to the
+    /// character's) or duration (s); repeatable
     #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
     set: Vec<Setting>,
     /// Fixes everything random; the scenario's if left out

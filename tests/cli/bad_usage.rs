@@ -72,6 +72,8 @@ fn settings_out_of_bounds() {
             &["run", "--set", "friction=nan"],
             &["run", "--set", "friction=-1"],
             &["run", "--set", "gravity=1e9"],
+            &["run", "--set", "torque=0"],
+            &["run", "--set", "mass=1e9"],
             &["run", "--set", "duration=1e9"],
         ],
     ));

@@ -21,18 +21,23 @@ fn trials_are_told_as_json() {
     assert_eq!(number(&trials["fraction"]), fraction);
     let interval = &trials["interval95"];
     assert!(number(&interval[0]) <= fraction && fraction <= number(&interval[1]));
-    let rest = &trials["controllers"]["rest"];
+    let pool = trials["controllers"].as_object().unwrap();
+    let rest = &pool["rest"];
     for key in ["activations", "succeeded", "failed"] {
         assert!(rest[key].is_u64(), "{key}");
     }
-    let balance = &trials["controllers"]["balance"];
-    assert!(balance["activations"].as_u64().unwrap() >= 6);
+    assert!(pool["balance"]["activations"].as_u64().unwrap() >= 6);
     let falls = &trials["falls"];
     let count = |way: &str| falls[way]["count"].as_u64().unwrap();
     assert!(count("forward") + count("backward") >= trials["fell"].as_u64().unwrap());
     assert!(falls["forward"]["hands_first"].is_u64());
     assert!(falls["backward"]["hands_or_seat_first"].is_u64());
     assert!(falls["head_hits"].is_u64());
+    for key in ["median_head_force", "median_trunk_force"] {
+        assert!(falls["forward"][key].is_number(), "{key}");
+        assert!(falls["backward"][key].is_number(), "{key}");
+    }
+    assert!(trials["time_to_stand"].is_null());
     let failures = trials["failures"].as_array().unwrap();
     assert_eq!(
         failures.len() as u64,
@@ -43,6 +48,7 @@ fn trials_are_told_as_json() {
         let impulse = number(&failure["impulse"]).abs();
         assert!((150.0..=250.0).contains(&impulse), "{impulse}");
         assert!(failure["posture"].is_string());
+        assert!(pool.contains_key(failure["active"].as_str().unwrap()));
     }
 }
 
@@ -63,6 +69,7 @@ fn a_failed_trial_can_be_repeated_alone_and_recorded() {
     assert_eq!(&alone["failures"][0], failure);
     assert_eq!(alone["count"], 1);
     assert_eq!(alone["run"]["end"]["posture"], failure["posture"]);
+    assert_eq!(alone["run"]["end"]["active"], failure["active"]);
     assert!(folder.path().join("x.trajectory").exists());
     called(&format!("trials {options} --only {index}"))
         .assert()
@@ -102,6 +109,72 @@ fn joints_are_off_at_the_start() {
 }
 
 #[test]
+fn times_to_stand_are_from_the_fall_to_standing() {
+    // A hand begins on a ball, which drops away: what a run calls a fall, and soon stands again.
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("hand.ron");
+    let text = r#"(
+        name: "hand", duration: 2.0,
+        characters: [(character: "humanoid", start: (angles: {"elbow_r": 1.5, "elbow_l": 1.5}))],
+        props: [(
+            name: "ball", shape: Capsule(radius: 0.05, from: (0, 0), to: (0, 0)), mass: 0.01,
+            position: (0.25, 1.05), velocity: (0.5, 0),
+        )],
+    )"#;
+    std::fs::write(&file, text).unwrap();
+    let options = format!("trials {} --count 2 --max-impulse 0", file.display());
+    let trials = json(&format!("{options} --duration 2"));
+    let one = json(&format!("{options} --duration 2 --only 1"));
+    let at = |kind: &str| {
+        let events = one["run"]["events"].as_array().unwrap();
+        let event = events.iter().find(|e| e["kind"] == kind).unwrap();
+        event["t"].as_f64().unwrap()
+    };
+    let took = at("stood") - 1.0 - at("fell");
+    let times = &trials["time_to_stand"];
+    assert_eq!(times["count"], 2);
+    for key in ["median", "p90", "max"] {
+        assert!((times[key].as_f64().unwrap() - took).abs() < 1e-9, "{key}");
+    }
+    called(&format!("{options} --duration 2"))
+        .assert()
+        .success()
+        .stdout(predicate::str::contains("got up               2 after 0."));
+    assert!(json(&format!("{options} --duration 1"))["time_to_stand"].is_null());
+}
+
+#[test]
+fn worlds_vary_and_disturbances_stay() {
+    let options = "trials --count 3 --only 1 --duration 1.5";
+    let told = |more: &str| {
+        let output = called(&format!("{options} {more}")).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let (same, own) = (told(""), told("--vary"));
+    let (same, own) = (same.lines().next().unwrap(), own.lines().next().unwrap());
+    let world = own.strip_prefix(same).unwrap();
+    assert!(world.starts_with("; friction "), "{world}");
+    let digest = |more: &str| json(&format!("{options} {more}"))["run"]["digest"].clone();
+    assert_ne!(digest(""), digest("--vary"));
+    assert_eq!(digest("--vary"), digest("--vary"));
+}
+
+#[test]
+fn failures_are_told_with_their_indices() {
+    let output = called("trials --count 12 --duration 2 --max-impulse 300 --min-impulse 250")
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let told = text.lines().filter(|l| l.contains(" active  "));
+    let indices: Vec<u32> = told
+        .map(|l| l.split_whitespace().next().unwrap().parse().unwrap())
+        .collect();
+    assert_eq!(indices, (0..10).collect::<Vec<_>>());
+    assert!(text.contains("          and 2 more"), "{text}");
+    assert!(text.contains("N on trunk and root"), "{text}");
+}
+
+#[test]
 fn results_are_told_in_words() {
     called("trials --count 2 --duration 2 --max-impulse 5")
         .assert()
@@ -109,4 +182,20 @@ fn results_are_told_in_words() {
         .stdout(predicate::str::contains("pushes of 0 to 5 N·s either way"))
         .stdout(predicate::str::contains("standing at the end  2 (100.0 %;"))
         .stderr("");
+}
+
+#[test]
+fn who_falls_limp_lets_go_and_breaks_no_fall() {
+    let options = "--count 4 --max-impulse 250 --min-impulse 200 --duration 2";
+    let trials = json(&format!("trials --repertoire limp {options}"));
+    let pool = trials["controllers"].as_object().unwrap();
+    assert_eq!(pool.keys().collect::<Vec<_>>(), ["balance", "rest"]);
+    assert_eq!(
+        (&trials["standing"], &trials["fell"]),
+        (&0.into(), &4.into())
+    );
+    assert_eq!(trials["controllers"]["rest"]["activations"], 4);
+    // More than the weight of it.
+    let force = |key: &str| trials["falls"][key].as_f64().unwrap();
+    assert!(force("median_head_force") > 800.0 && force("median_trunk_force") > 800.0);
 }

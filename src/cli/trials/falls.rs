@@ -1,10 +1,14 @@
-//! How a character falls: which way, what touches first, how fast its head is when it touches.
+//! How a character falls: which way, what touches first, how fast its head is when it touches, how
+//! hard head and trunk hit.
 //!
-//! sensors and events of every step → [`Fall`]s.
+//! sensors and events of every step → [`Fall`]s, and when it stands again.
 
 use aplomb::framework::model::Model;
 use aplomb::framework::sensors::Sensors;
 use aplomb::framework::trajectory::EventKind;
+
+use super::impact::Impact;
+use super::rising::Rising;
 
 /// m/s; a slower centre of mass falls the way it was pushed.
 const SLOW: f64 = 0.05;
@@ -33,6 +37,10 @@ pub(super) struct Fall {
     touched: [Option<f64>; PARTS],
     /// Speed of the head just before it touched, m/s.
     pub(super) head_speed: Option<f64>,
+    /// Largest filtered force on the head, N.
+    pub(super) head_force: f64,
+    /// Largest filtered force on trunk and root together, N.
+    pub(super) trunk_force: f64,
 }
 
 impl Fall {
@@ -81,20 +89,25 @@ pub(super) struct Watch {
     upright: bool,
     /// m/s, in the step before.
     head_speed: f64,
+    impact: Impact,
     falling: Option<Fall>,
     falls: Vec<Fall>,
+    rising: Rising,
 }
 
 impl Watch {
-    /// Of a character that is pushed with an impulse (N·s) or begins on the floor.
-    pub(super) fn new(model: &Model, pushed: f64, fallen: bool) -> Self {
+    /// Of a character that is pushed with an impulse (N·s) or begins on the floor, in steps of
+    /// `dt` s.
+    pub(super) fn new(model: &Model, pushed: f64, fallen: bool, dt: f64) -> Self {
         Self {
             parts: (0..model.links.len()).map(|l| part(model, l)).collect(),
             pushed,
             upright: !fallen,
             head_speed: 0.0,
+            impact: Impact::new(dt),
             falling: None,
             falls: Vec::new(),
+            rising: Rising::new(fallen),
         }
     }
 
@@ -102,27 +115,26 @@ impl Watch {
     pub(super) fn observe<'a>(
         &mut self,
         now: &Sensors,
-        events: impl Iterator<Item = &'a EventKind>,
+        mut events: impl Iterator<Item = &'a EventKind>,
     ) {
-        for event in events {
-            match event {
-                EventKind::Fell if self.upright => {
-                    let v = now.com_velocity[0];
-                    let way = if v.abs() < SLOW { self.pushed } else { v };
-                    self.upright = false;
-                    self.falling = Some(Fall {
-                        forward: way > 0.0,
-                        touched: [None; PARTS],
-                        head_speed: None,
-                    });
-                }
-                EventKind::Stood => {
-                    self.upright = true;
-                    self.falls.extend(self.falling.take());
-                }
-                _ => {}
-            }
+        if self.upright && events.any(|e| matches!(e, EventKind::Fell)) {
+            let v = now.com_velocity[0];
+            let way = if v.abs() < SLOW { self.pushed } else { v };
+            self.upright = false;
+            self.rising.fell(now);
+            self.falling = Some(Fall {
+                forward: way > 0.0,
+                touched: [None; PARTS],
+                head_speed: None,
+                head_force: 0.0,
+                trunk_force: 0.0,
+            });
         }
+        if self.rising.observe(now) {
+            self.upright = true;
+            self.falls.extend(self.falling.take());
+        }
+        self.impact.observe(now);
         if let Some(fall) = &mut self.falling {
             for (part, contact) in self.parts.iter().zip(&now.contacts) {
                 if contact.touching {
@@ -132,37 +144,42 @@ impl Watch {
                     }
                 }
             }
+            fall.head_force = fall.head_force.max(self.impact.head);
+            fall.trunk_force = fall.trunk_force.max(self.impact.trunk);
         }
         let v = now.kinematics.links[now.model.head].com_velocity;
         self.head_speed = v[0].hypot(v[1]);
     }
 
-    /// All falls, the last one possibly not over.
-    pub(super) fn finish(mut self) -> Vec<Fall> {
+    /// All falls, the last one possibly not over, and the time to standing of [`Rising`].
+    pub(super) fn finish(mut self) -> (Vec<Fall>, Option<f64>) {
         self.falls.extend(self.falling);
-        self.falls
+        (self.falls, self.rising.took())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use aplomb::framework::scenario::Scenario;
+    use aplomb::framework::simulation::Simulation;
 
     /// Steps with what touches in each.
     fn fall(forward: bool, touches: &[&[&str]]) -> Fall {
         let model = Model::load("humanoid").unwrap();
-        let mut watch = Watch::new(&model, if forward { 1.0 } else { -1.0 }, false);
+        let mut watch = Watch::new(&model, if forward { 1.0 } else { -1.0 }, false, 1e-3);
         let mut now = Sensors::new(&model, 9.81);
         for (i, links) in touches.iter().enumerate() {
             now.time = i as f64;
             now.kinematics.links[model.head].com_velocity = [0.0, -1.0 - i as f64];
             for (link, contact) in model.links.iter().zip(&mut now.contacts) {
                 contact.touching = links.contains(&link.name.as_str());
+                contact.force = [0.0, if contact.touching { 1000.0 } else { 0.0 }];
             }
             let fell = (i == 0).then_some(&EventKind::Fell);
             watch.observe(&now, fell.into_iter());
         }
-        watch.finish()[0]
+        watch.finish().0[0]
     }
 
     #[test]
@@ -187,13 +204,26 @@ mod tests {
     }
 
     #[test]
-    fn a_heap_has_not_fallen() {
-        let model = Model::load("humanoid").unwrap();
-        let mut watch = Watch::new(&model, 0.0, true);
-        let now = Sensors::new(&model, 9.81);
-        watch.observe(&now, [EventKind::Fell].iter());
-        assert!(watch.falls.is_empty() && watch.falling.is_none());
-        watch.observe(&now, [EventKind::Stood, EventKind::Fell].iter());
-        assert_eq!(watch.finish().len(), 1);
+    fn head_and_trunk_are_hit_as_hard_as_the_filter_lets_through() {
+        let fall = fall(false, &[&["pelvis", "torso"], &[], &["head"], &["head"]]);
+        assert!((fall.trunk_force - 200.0).abs() < 1e-9);
+        assert!((fall.head_force - 190.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_heap_has_not_fallen_before_it_has_stood_up() {
+        let scenario = Scenario::standing("humanoid", 2.0);
+        let mut run = Simulation::new(&scenario, &aplomb::controllers::registry()).unwrap();
+        let mut watch = Watch::new(run.sensors(0).model.as_ref(), 0.0, true, 1e-3);
+        watch.observe(run.sensors(0), [EventKind::Fell].iter());
+        assert!(watch.falling.is_none());
+        for _ in 0..1500 {
+            run.step();
+            watch.observe(run.sensors(0), [].iter());
+        }
+        watch.observe(run.sensors(0), [EventKind::Fell].iter());
+        let (falls, took) = watch.finish();
+        assert_eq!(falls.len(), 1);
+        assert!(took.is_some_and(|s| s < 0.5), "{took:?}");
     }
 }

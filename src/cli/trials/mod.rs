@@ -3,8 +3,12 @@
 //! arguments → plan → trial i with random stream i → tally. The number of threads changes nothing.
 
 mod falls;
+mod falls_report;
+mod impact;
 mod plan;
 mod report;
+mod rising;
+mod statistics;
 mod tally;
 
 use std::io::Write;
@@ -36,7 +40,8 @@ const LARGEST_ANGLE: f64 = std::f64::consts::PI;
 /// Run many randomised trials and count how they end
 ///
 /// Each trial is a run with a random disturbance: one push over 0.1 s at 1 s on the pelvis, torso
-/// or head, joint angles that are off at the start, or a start as a random heap on the floor.
+/// or head, joint angles that are off at the start, or a start as a random heap on the floor; with
+/// --vary also in a world of its own.
 /// Trial i depends on the seed and on i only, so that --only i repeats it. Ctrl-C prints the result
 /// of the trials that are finished.
 #[derive(Debug, Args)]
@@ -44,6 +49,7 @@ const LARGEST_ANGLE: f64 = std::f64::consts::PI;
 Examples:
   aplomb trials --count 200 --max-impulse 80
   aplomb trials --count 200 --max-impulse 80 --only 17 --record 17.trajectory
+  aplomb trials --count 200 --vary --repertoire limp
   aplomb trials --fallen --duration 5 --json")]
 pub(super) struct TrialsArgs {
     #[command(flatten)]
@@ -67,6 +73,10 @@ pub(super) struct TrialsArgs {
     /// Starts as a random heap, dropped from just above the floor
     #[arg(long, conflicts_with = "max_angle")]
     fallen: bool,
+    /// Each trial in a world of its own: friction 0.6 to 1.2, torque 0.85 to 1.15, mass 0.95 to 1.05
+    /// times the scenario's. Pushes and starts stay the same
+    #[arg(long)]
+    vary: bool,
     /// Length of each trial, s
     #[arg(long, value_name = "S", default_value = "20",
           value_parser = duration, allow_negative_numbers = true)]
@@ -136,6 +146,7 @@ impl TrialsArgs {
             impulse: [self.min_impulse, max_impulse],
             max_angle: self.max_angle,
             fallen: self.fallen,
+            vary: self.vary,
         };
         Plan::new(scenario, registry, disturbance)
     }
@@ -186,7 +197,16 @@ impl TrialsArgs {
             let run = RunJson::new(&simulation, &scenario, wall_s, false);
             Report::new(plan, tally, wall_s, false).write_json(&mut told, Some(run))?;
         } else {
-            writeln!(told, "trial {index}: {}", trial.disturbance())?;
+            write!(told, "trial {index}: {}", trial.disturbance())?;
+            if self.vary {
+                let world = &scenario.settings;
+                let (friction, torque, mass) = (world.friction, world.torque, world.mass);
+                write!(
+                    told,
+                    "; friction {friction:.2}, torque {torque:.2}, mass {mass:.2}"
+                )?;
+            }
+            writeln!(told)?;
             timeline::print(&mut told, &simulation, &scenario, false)?;
         }
         if let Some(recording) = simulation.into_recording() {

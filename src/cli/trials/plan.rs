@@ -20,6 +20,10 @@ use super::falls::{Fall, Watch};
 const PUSH_AT: f64 = 1.0;
 /// Gap under a heap before it drops, m.
 const DROP: f64 = 0.02;
+/// Least and most friction, torque and mass of a trial's own world, relative to the scenario's.
+const FRICTION: [f64; 2] = [0.6, 1.2];
+const TORQUE: [f64; 2] = [0.85, 1.15];
+const MASS: [f64; 2] = [0.95, 1.05];
 /// Steps between two looks at whether to stop.
 const PATIENCE: u64 = 500;
 
@@ -32,6 +36,8 @@ pub(super) struct Disturbance {
     pub(super) max_angle: f64,
     /// Starts as a heap on the floor.
     pub(super) fallen: bool,
+    /// Each in a world of its own.
+    pub(super) vary: bool,
 }
 
 /// What the trials have in common.
@@ -63,6 +69,10 @@ pub(super) struct Trial {
     pub(super) push: Option<(String, f64)>,
     pub(super) standing: bool,
     pub(super) posture: &'static str,
+    /// The controller that is active at the end.
+    pub(super) active: String,
+    /// From the first fall, or of a heap from the start, to standing, s.
+    pub(super) time_to_stand: Option<f64>,
     /// Of the first character.
     pub(super) events: Vec<Event>,
     pub(super) falls: Vec<Fall>,
@@ -110,7 +120,8 @@ impl Plan {
     }
 
     /// The scenario of trial `index`, disturbed, and its push. What is drawn for the push does not
-    /// depend on the other disturbances.
+    /// depend on the other disturbances, and nothing on whether the world varies, which is drawn
+    /// last.
     fn draw(&self, index: u64) -> (Scenario, Option<(String, f64)>) {
         let mut rng = ChaCha8Rng::seed_from_u64(self.scenario.seed);
         rng.set_stream(index);
@@ -126,7 +137,10 @@ impl Plan {
             });
         }
         let Disturbance {
-            max_angle, fallen, ..
+            max_angle,
+            fallen,
+            vary,
+            ..
         } = self.disturbance;
         let start = &mut scenario.characters[0].start;
         for joint in self.model.joints() {
@@ -143,6 +157,16 @@ impl Plan {
         if fallen {
             start.pitch = rng.gen_range(-std::f64::consts::PI..std::f64::consts::PI);
             start.lift = DROP;
+        }
+        if vary {
+            let world = &mut scenario.settings;
+            for (setting, [least, most]) in [
+                (&mut world.friction, FRICTION),
+                (&mut world.torque, TORQUE),
+                (&mut world.mass, MASS),
+            ] {
+                *setting *= rng.gen_range(least..most);
+            }
         }
         (scenario, push)
     }
@@ -183,7 +207,7 @@ impl Plan {
         let push = staged.push.clone();
         let steps = (staged.scenario.duration / self.dt()).round() as u64;
         let pushed = push.as_ref().map_or(0.0, |p| p.1);
-        let mut watch = Watch::new(&self.model, pushed, self.disturbance.fallen);
+        let mut watch = Watch::new(&self.model, pushed, self.disturbance.fallen, self.dt());
         let mut seen = simulation.events().len();
         for step in 0..steps {
             if step.is_multiple_of(PATIENCE) && stop.load(Ordering::Relaxed) {
@@ -196,20 +220,71 @@ impl Plan {
             seen = events.len();
         }
         let outcome = simulation.outcome(0);
+        let (falls, time_to_stand) = watch.finish();
         let of_first = |e: &&Event| e.character == 0 && !matches!(e.kind, EventKind::Push { .. });
         Some(Trial {
             index: staged.index,
             push,
             standing: outcome.standing,
             posture: outcome.posture.name(),
+            active: outcome.active,
+            time_to_stand,
             events: simulation
                 .events()
                 .iter()
                 .filter(of_first)
                 .cloned()
                 .collect(),
-            falls: watch.finish(),
+            falls,
             steps,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(fallen: bool, vary: bool) -> Plan {
+        let scenario = Scenario::standing("humanoid", 1.0);
+        let disturbance = Disturbance {
+            impulse: [10.0, 60.0],
+            max_angle: if fallen { 0.0 } else { 0.1 },
+            fallen,
+            vary,
+        };
+        Plan::new(scenario, aplomb::controllers::registry(), disturbance).unwrap()
+    }
+
+    #[test]
+    fn a_world_of_its_own_changes_neither_push_nor_start() {
+        for fallen in [false, true] {
+            let (same, own) = (plan(fallen, false), plan(fallen, true));
+            for index in 0..50 {
+                let ((mut a, push_a), (b, push_b)) = (same.draw(index), own.draw(index));
+                assert_eq!(push_a, push_b);
+                assert_eq!(a.settings, same.scenario.settings);
+                assert_ne!(a.settings, b.settings);
+                a.settings = b.settings;
+                assert_eq!(a, b);
+            }
+        }
+    }
+
+    #[test]
+    fn worlds_vary_within_their_bounds_and_about_the_scenario() {
+        let mut plan = plan(false, true);
+        plan.scenario.settings.torque = 0.5;
+        let worlds: Vec<_> = (0..200).map(|i| plan.draw(i).0.settings).collect();
+        let assert_spread = |value: &dyn Fn(usize) -> f64, [least, most]: [f64; 2]| {
+            let values = (0..worlds.len()).map(value);
+            let [low, high] = values.fold([f64::INFINITY, 0.0], |[l, h], v| [v.min(l), v.max(h)]);
+            let margin = 0.05 * (most - least);
+            assert!(least <= low && low < least + margin, "{low}");
+            assert!(most - margin < high && high <= most, "{high}");
+        };
+        assert_spread(&|i| worlds[i].friction, FRICTION);
+        assert_spread(&|i| worlds[i].torque, TORQUE.map(|t| 0.5 * t));
+        assert_spread(&|i| worlds[i].mass, MASS);
     }
 }

@@ -8,8 +8,10 @@ use serde::Serialize;
 
 use crate::cli::json::RunJson;
 
+use super::falls_report::FallsReport;
 use super::plan::Plan;
-use super::tally::{Activations, Failure, Falls, Tally};
+use super::statistics::{median, percentile90, wilson};
+use super::tally::{Activations, Failure, Tally};
 
 /// So many failures are told in text.
 const FAILURES_TOLD: usize = 10;
@@ -24,6 +26,8 @@ pub(super) struct Report {
     interval95: [f64; 2],
     fell: u64,
     stepped: u64,
+    /// None if nobody got up.
+    time_to_stand: Option<TimeToStand>,
     seed: u64,
     wall_s: f64,
     simulated_s: f64,
@@ -36,39 +40,14 @@ pub(super) struct Report {
     failures: Vec<Failure>,
 }
 
+/// From the first fall, or of heaps from the start, to standing, s.
 #[derive(Debug, Serialize)]
-struct FallsReport {
-    forward: Forward,
-    backward: Backward,
-    #[serde(flatten)]
-    head: Head,
-}
-
-/// The head in falls.
-#[derive(Debug, Serialize)]
-struct Head {
-    /// m/s, of all falls; 0 for those in which the head did not touch.
-    median_head_impact_speed: Option<f64>,
-    /// m/s, of the falls in which the head touched.
-    median_head_hit_speed: Option<f64>,
-    /// Falls in which the head touched.
-    head_hits: u64,
-}
-
-#[derive(Debug, Serialize)]
-struct Forward {
+struct TimeToStand {
+    /// Trials that got up.
     count: u64,
-    hands_first: u64,
-    #[serde(flatten)]
-    head: Head,
-}
-
-#[derive(Debug, Serialize)]
-struct Backward {
-    count: u64,
-    hands_or_seat_first: u64,
-    #[serde(flatten)]
-    head: Head,
+    median: f64,
+    p90: f64,
+    max: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -78,76 +57,15 @@ struct WithRun<'a> {
     run: RunJson,
 }
 
-/// The middle value, or the mean of the two in the middle.
-fn median(values: &[f64]) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let half = sorted.len() / 2;
-    match sorted.len() {
-        0 => None,
-        n if n.is_multiple_of(2) => Some(0.5 * (sorted[half - 1] + sorted[half])),
-        _ => Some(sorted[half]),
-    }
-}
-
-/// The 95 % interval of a share (Wilson 1927); everything if there were no trials.
-fn wilson(hits: u64, count: u64) -> [f64; 2] {
-    const Z: f64 = 1.959_963_984_540_054;
-    if count == 0 {
-        return [0.0, 1.0];
-    }
-    let (n, p) = (count as f64, hits as f64 / count as f64);
-    let middle = p + Z * Z / (2.0 * n);
-    let spread = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
-    let scale = 1.0 + Z * Z / n;
-    // Exact at the ends, where rounding would leave the share outside of its interval.
-    let low = if hits == 0 { 0.0 } else { middle - spread };
-    let high = if hits == count {
-        scale
-    } else {
-        middle + spread
-    };
-    [low / scale, high / scale]
-}
-
-impl Head {
-    fn new(falls: u64, hits: &[f64]) -> Self {
-        let mut all = hits.to_vec();
-        all.resize((falls as usize).max(hits.len()), 0.0);
-        Self {
-            median_head_impact_speed: median(&all),
-            median_head_hit_speed: median(hits),
-            head_hits: hits.len() as u64,
-        }
-    }
-
-    fn text(&self) -> String {
-        match (self.median_head_impact_speed, self.median_head_hit_speed) {
-            (Some(all), Some(hits)) => format!(
-                "head touched in {} at {hits:.2} m/s (median; {all:.2} over all falls)",
-                self.head_hits
-            ),
-            _ => "head never touched".to_owned(),
-        }
-    }
-}
-
-impl FallsReport {
-    fn new(forward: &Falls, backward: &Falls) -> Self {
-        let hits = [&forward.head_speeds[..], &backward.head_speeds].concat();
-        Self {
-            forward: Forward {
-                count: forward.count,
-                hands_first: forward.broken_well,
-                head: Head::new(forward.count, &forward.head_speeds),
-            },
-            backward: Backward {
-                count: backward.count,
-                hands_or_seat_first: backward.broken_well,
-                head: Head::new(backward.count, &backward.head_speeds),
-            },
-            head: Head::new(forward.count + backward.count, &hits),
-        }
+impl TimeToStand {
+    /// None if nobody got up.
+    fn new(times: &[f64]) -> Option<Self> {
+        Some(Self {
+            count: times.len() as u64,
+            median: median(times)?,
+            p90: percentile90(times)?,
+            max: times.iter().copied().fold(0.0, f64::max),
+        })
     }
 }
 
@@ -163,6 +81,7 @@ impl Report {
             interval95: wilson(tally.standing, count),
             fell: tally.fell,
             stepped: tally.stepped,
+            time_to_stand: TimeToStand::new(&tally.times_to_stand),
             seed: plan.scenario.seed,
             wall_s,
             simulated_s,
@@ -203,6 +122,9 @@ impl Report {
         } else if d.max_angle > 0.0 {
             write!(out, "; joints off by up to {} rad", d.max_angle)?;
         }
+        if d.vary {
+            write!(out, "; each in a world of its own")?;
+        }
         let [low, high] = self.interval95.map(|x| 100.0 * x);
         writeln!(
             out,
@@ -212,7 +134,14 @@ impl Report {
         )?;
         writeln!(out, "fell                 {}", self.fell)?;
         writeln!(out, "stepped              {}", self.stepped)?;
-        self.print_falls(out)?;
+        if let Some(t) = &self.time_to_stand {
+            writeln!(
+                out,
+                "got up               {} after {:.2} s (median), nine of ten within {:.2} s, all within {:.2} s",
+                t.count, t.median, t.p90, t.max
+            )?;
+        }
+        self.falls.print(out)?;
         self.print_controllers(out)?;
         self.print_failures(out)?;
         Ok(writeln!(
@@ -220,30 +149,6 @@ impl Report {
             "\n{:.0} s simulated in {:.1} s: {:.0} steps/s",
             self.simulated_s, self.wall_s, self.steps_per_s
         )?)
-    }
-
-    fn print_falls(&self, out: &mut dyn Write) -> Result<()> {
-        let FallsReport {
-            forward, backward, ..
-        } = &self.falls;
-        if forward.count + backward.count == 0 {
-            return Ok(());
-        }
-        writeln!(
-            out,
-            "falls forward        {}: hands first in {}, {}",
-            forward.count,
-            forward.hands_first,
-            forward.head.text()
-        )?;
-        writeln!(
-            out,
-            "falls backward       {}: hands or seat first in {}, {}",
-            backward.count,
-            backward.hands_or_seat_first,
-            backward.head.text()
-        )?;
-        Ok(())
     }
 
     fn print_controllers(&self, out: &mut dyn Write) -> Result<()> {
@@ -272,38 +177,17 @@ impl Report {
         }
         writeln!(out, "\nnot standing at the end (--only I repeats trial I):")?;
         for failure in self.failures.iter().take(FAILURES_TOLD) {
-            let (index, posture) = (failure.index, failure.posture);
+            let (index, posture, active) = (failure.index, failure.posture, &failure.active);
             let push = match (&failure.link, failure.impulse) {
                 (Some(link), Some(impulse)) => format!("  {link} {impulse:+.2} N·s"),
                 _ => String::new(),
             };
-            writeln!(out, "{index:8}  {posture}{push}")?;
+            writeln!(out, "{index:8}  {posture}, {active} active{push}")?;
         }
         let more = self.failures.len().saturating_sub(FAILURES_TOLD);
         if more > 0 {
             writeln!(out, "          and {more} more")?;
         }
         Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn wilson_gives_the_published_interval() {
-        // Newcombe (1998), table I: 81 of 263.
-        let [low, high] = wilson(81, 263);
-        assert!((low - 0.2553).abs() < 1e-4 && (high - 0.3662).abs() < 1e-4);
-        assert_eq!(wilson(0, 0), [0.0, 1.0]);
-        assert_eq!((wilson(0, 10)[0], wilson(10, 10)[1]), (0.0, 1.0));
-    }
-
-    #[test]
-    fn the_median_of_an_even_number_is_the_mean_of_two() {
-        assert_eq!(median(&[]), None);
-        assert_eq!(median(&[3.0, 1.0, 2.0]), Some(2.0));
-        assert_eq!(median(&[4.0, 1.0, 2.0, 3.0]), Some(2.5));
     }
 }

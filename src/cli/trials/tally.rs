@@ -28,6 +28,8 @@ pub(super) struct Failure {
     pub(super) link: Option<String>,
     pub(super) impulse: Option<f64>,
     pub(super) posture: &'static str,
+    /// The active controller.
+    pub(super) active: String,
 }
 
 /// Falls in one direction.
@@ -38,6 +40,10 @@ pub(super) struct Falls {
     pub(super) broken_well: u64,
     /// m/s, of the falls in which the head touched.
     pub(super) head_speeds: Vec<f64>,
+    /// N, see [`Fall::head_force`].
+    pub(super) head_forces: Vec<f64>,
+    /// N, see [`Fall::trunk_force`].
+    pub(super) trunk_forces: Vec<f64>,
 }
 
 /// The sums.
@@ -48,6 +54,8 @@ pub(super) struct Tally {
     pub(super) fell: u64,
     pub(super) stepped: u64,
     pub(super) steps: u64,
+    /// s, of the trials that got up (again).
+    pub(super) times_to_stand: Vec<f64>,
     /// From one controller to another.
     pub(super) switches: u64,
     pub(super) short_activations: u64,
@@ -84,6 +92,7 @@ impl Tally {
         self.steps += trial.steps;
         self.standing += u64::from(trial.standing);
         self.fell += u64::from(!trial.falls.is_empty());
+        self.times_to_stand.extend(trial.time_to_stand);
         for fall in &trial.falls {
             self.of(fall.forward).take(fall);
         }
@@ -93,6 +102,7 @@ impl Tally {
                 link: trial.push.as_ref().map(|p| p.0.clone()),
                 impulse: trial.push.as_ref().map(|p| p.1),
                 posture: trial.posture,
+                active: trial.active.clone(),
             });
         }
         self.take_switches(trial);
@@ -107,22 +117,23 @@ impl Tally {
     }
 
     fn take_switches(&mut self, trial: &Trial) {
-        let mut since: BTreeMap<&str, f64> = BTreeMap::new();
+        // Only one is active at a time.
+        let mut since: Option<f64> = None;
         let mut stepped = false;
         for event in &trial.events {
             let EventKind::Switch { from, to, why, .. } = &event.kind else {
                 continue;
             };
             self.controllers.entry(to.clone()).or_default().activations += 1;
-            since.insert(to, event.time);
             stepped |= to.contains("step");
+            let began = since.replace(event.time);
             let Some(from) = from else { continue };
-            self.switches += 1;
+            self.switches += u64::from(from != to);
             let (succeeded, failed) = (why == "succeeded", why.starts_with("failed"));
             let former = self.controllers.entry(from.clone()).or_default();
             former.succeeded += u64::from(succeeded);
             former.failed += u64::from(failed);
-            let lasted = since.remove(from.as_str()).map(|t| event.time - t);
+            let lasted = began.map(|t| event.time - t);
             let short = lasted.is_some_and(|s| s < SHORT - 1e-9);
             self.short_activations += u64::from(short && !failed && why != "command");
         }
@@ -136,6 +147,7 @@ impl Tally {
         self.fell += other.fell;
         self.stepped += other.stepped;
         self.steps += other.steps;
+        self.times_to_stand.extend(other.times_to_stand);
         self.switches += other.switches;
         self.short_activations += other.short_activations;
         for (name, theirs) in other.controllers {
@@ -156,12 +168,17 @@ impl Falls {
         self.count += 1;
         self.broken_well += u64::from(fall.broken_well());
         self.head_speeds.extend(fall.head_speed);
+        self.head_forces.push(fall.head_force);
+        self.trunk_forces.push(fall.trunk_force);
     }
 
-    fn merge(&mut self, other: Self) {
+    /// Both together.
+    pub(super) fn merge(&mut self, other: Self) {
         self.count += other.count;
         self.broken_well += other.broken_well;
         self.head_speeds.extend(other.head_speeds);
+        self.head_forces.extend(other.head_forces);
+        self.trunk_forces.extend(other.trunk_forces);
     }
 }
 
@@ -186,6 +203,8 @@ mod tests {
             push: None,
             standing: index.is_multiple_of(2),
             posture: "supine",
+            active: "rest".to_owned(),
+            time_to_stand: None,
             events: switches.iter().map(event).collect(),
             falls: Vec::new(),
             steps: 1000,
@@ -210,6 +229,26 @@ mod tests {
         assert_eq!((stance.activations, stance.failed), (2, 1));
         assert_eq!(tally.controllers["side_step"].succeeded, 1);
         assert_eq!(tally.controllers["rest"], Activations::default());
+    }
+
+    #[test]
+    fn short_activations_are_those_that_neither_failure_nor_command_ended() {
+        let mut tally = Tally::new(&[]);
+        tally.take(&trial(
+            0,
+            &[
+                (0.0, "", "stance", "start"),
+                (0.02, "stance", "bow", "command"),
+                // Commanded again: a new activation, but no switch to another controller.
+                (0.04, "bow", "bow", "command"),
+                (0.06, "bow", "stance", "succeeded"),
+                (0.08, "stance", "fall", "failed: x"),
+                (0.13, "fall", "rest", "succeeded"),
+                (0.179, "rest", "stance", "succeeded"),
+            ],
+        ));
+        assert_eq!((tally.switches, tally.short_activations), (5, 2));
+        assert_eq!(tally.controllers["bow"].activations, 2);
     }
 
     #[test]
