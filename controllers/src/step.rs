@@ -74,6 +74,10 @@ pub struct StepSpec {
     pub margin: f64,
     /// How fast the reference centre of mass moves over the foot, m/s.
     pub glide: f64,
+    /// m by which bending the trunk may extend the support.
+    pub bend: f64,
+    /// How fast the reference rises from where the centre of mass was found, m/s.
+    pub climb: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -105,6 +109,8 @@ pub struct Step {
     since: f64,
     /// Where the swinging sole began, m.
     from: [f64; 2],
+    /// Where the centre of mass is to come, world x, m.
+    over: f64,
     time: f64,
 }
 
@@ -131,6 +137,8 @@ impl Spec for StepSpec {
             ("close_within", self.close_within, 0.0, 0.5),
             ("margin", self.margin, -0.1, 0.5),
             ("glide", self.glide, 0.01, 10.0),
+            ("bend", self.bend, 0.0, 2.0),
+            ("climb", self.climb, 0.01, 10.0),
         ] {
             bounded(&place, field, value, low, high)?;
         }
@@ -156,6 +164,7 @@ impl Spec for StepSpec {
             phase: Phase::Settle,
             since: 0.0,
             from: [0.0; 2],
+            over: 0.0,
             time: 0.0,
             spec: self,
             contract,
@@ -291,6 +300,24 @@ impl Step {
         }
     }
 
+    /// A reference that asks for no more acceleration than the pressure under the carrying feet can
+    /// give, and that of bending: what is braked by bending the trunk has to be paid back.
+    fn attainable(&self, now: &Sensors) -> f64 {
+        let g = &self.spec.gains;
+        let c = now.com[0];
+        let (rear, front) = match self.phase {
+            Phase::Swing { foot, .. } | Phase::Close { foot, .. } => Self::ends(now, 1 - foot).into(),
+            Phase::Catch { .. } | Phase::Settle => {
+                now.base_of_support.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]).into()
+            }
+        };
+        let (rear, front) = (rear - self.spec.bend, front + self.spec.bend);
+        let wish = g.kl * (self.over - c) - g.dl * now.com_velocity[0];
+        let rate = now.pendulum_rate().powi(2);
+        let given = wish.max(rate * (c - front)).min(rate * (c - rear));
+        c + given / g.kl.max(1.0)
+    }
+
     /// Sets the reference for the phase.
     fn aim(&mut self, now: &Sensors) {
         let passed = (now.time - self.time).clamp(0.0, 0.1);
@@ -310,22 +337,15 @@ impl Step {
             }
             Phase::Settle => (0.5 * (a + b), None, 0.0),
         };
-        let x = self.reference.com[0];
         let step = self.spec.glide * passed;
+        self.over += (goal - self.over).clamp(-step, step);
         // A wide stance is a low one.
         let spread = 0.5 * (a - b);
         let drop = self.leg - (self.leg * self.leg - spread * spread).max(0.0).sqrt();
-        self.reference.com = [x + (goal - x).clamp(-step, step), now.ground + self.height - drop];
-        self.reference.com_velocity[0] = 0.0;
-        if let Phase::Swing { foot, forward } = self.phase {
-            // Falls like the pendulum that it is, with the pressure at the end of the sole: what
-            // more it could brake by bending the trunk would be paid for after landing.
-            let [rear, front] = Self::ends(now, 1 - foot);
-            let edge = if forward { front } else { rear };
-            let pendulum = now.pendulum_rate().powi(2) * (now.com[0] - edge);
-            self.reference.com[0] = now.com[0] + pendulum / self.spec.gains.kl.max(1.0);
-            self.reference.com_velocity[0] = now.com_velocity[0];
-        }
+        let top = now.ground + self.height - drop;
+        let y = top.min(self.reference.com[1] + self.spec.climb * passed);
+        self.reference.com = [self.attainable(now), y];
+        self.reference.com_velocity[0] = now.com_velocity[0];
         self.reference.pitch = lean;
         self.reference.swing = swing;
     }
@@ -338,6 +358,7 @@ impl Controller for Step {
 
     fn enter(&mut self, now: &Sensors) {
         self.momentum.reset();
+        self.over = now.com[0];
         self.reference.com = now.com;
         self.time = now.time;
         let outside = now.base_of_support.is_none_or(|[rear, front]| {
@@ -367,6 +388,6 @@ impl Controller for Step {
     }
 
     fn reference_com(&self) -> Option<f64> {
-        Some(self.reference.com[0])
+        Some(self.over)
     }
 }

@@ -36,10 +36,10 @@ pub enum Condition {
         /// The feature.
         feature: Feature,
         /// Lowest value; no bound if left out.
-        #[serde(default = "lowest")]
+        #[serde(default = "lowest", skip_serializing_if = "is_infinite")]
         min: f64,
         /// Highest value; no bound if left out.
-        #[serde(default = "highest")]
+        #[serde(default = "highest", skip_serializing_if = "is_infinite")]
         max: f64,
     },
     /// The posture is one of these.
@@ -58,6 +58,10 @@ fn lowest() -> f64 {
 
 fn highest() -> f64 {
     f64::INFINITY
+}
+
+fn is_infinite(bound: &f64) -> bool {
+    bound.is_infinite()
 }
 
 /// The clause that refused, and the value that it refused.

@@ -12,5 +12,6 @@ pub mod falling;
 pub mod rising;
 pub mod standing;
 pub mod starts;
+pub mod stepping;
 pub mod tune;
 pub mod worlds;

@@ -3,6 +3,7 @@
 //! controller file → dimensions → CMA-ES over rollouts → controller file, with seed and cost.
 
 mod pose;
+mod step;
 
 use std::fmt::Write;
 

@@ -13,20 +13,25 @@ use aplomb_training::worlds::Worlds;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let a: Vec<String> = std::env::args().skip(1).collect();
+    let kind = Source::read(Path::new(&a[1]))?.parse::<aplomb_framework::registry::ControllerFile>()?.kind;
+    if kind == "pose" { go::<PoseSpec>(&a) } else { go::<aplomb_controllers::step::StepSpec>(&a) }
+}
+
+fn go<T: aplomb_training::tune::Tunable + Spec>(a: &[String]) -> Result<(), Box<dyn std::error::Error>> {
     let (rep, file, out) = (&a[0], &a[1], &a[2]);
     let n: Vec<f64> = a[3..].iter().map(|x| x.parse().unwrap()).collect();
     let (seed, evals, sigma, count, heaps, longest, vary) = (n[0] as u64, n[1] as usize, n[2], n[3] as usize, n[4], n[5], n[6]);
     let registry = aplomb_controllers::registry();
     let model = Model::load("humanoid")?;
     let mind = repertoire::load(rep, &registry, &model)?;
-    let (mut contract, base) = spec_of::<PoseSpec>(&Source::read(Path::new(file))?)?;
+    let (mut contract, base) = spec_of::<T>(&Source::read(Path::new(file))?)?;
     contract.resolve(&model)?;
     let mind = mind.with_replaced(base.clone().build(contract.clone(), &model)?)?;
     let worlds = if vary > 0.0 { Worlds::VARIED } else { Worlds { friction: [1.0; 2], torque: [1.0; 2], mass: [1.0; 2] } };
     let s = starts(starts::Source { worlds, heaps, seed }, count, &model, &contract, &mind)?;
     let goal = Goal::of(&contract);
     eprintln!("{} starts, goal {goal:?}", s.len());
-    let report = |spec: &PoseSpec| {
+    let report = |spec: &T| {
         let m = mind.with_replaced(spec.clone().build(contract.clone(), &model).unwrap()).unwrap();
         let r: Vec<_> = s.iter().map(|x| rise(x, &m, &contract, goal, longest)).collect();
         let ok = r.iter().filter(|r| r.reached).count();
