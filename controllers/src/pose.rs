@@ -2,8 +2,8 @@
 //! held for a time or until something happens, so that a skill can be a file.
 //!
 //! Targets ease from one pose to the next; feedback rules add features of the situation to joint
-//! targets (continuous control). Fails as its contract says; after the last state it holds that
-//! pose.
+//! targets (continuous control). Fails as its contract says, when a state ends short of what it
+//! expects, or when the last pose does not bring the post-condition about within a second.
 
 use std::sync::Arc;
 
@@ -23,6 +23,9 @@ use crate::target::{NamedAngles, bounded, joints_named, mirrored, overlay};
 /// At most this many states.
 pub const MOST_STATES: usize = 64;
 
+/// s that the last pose is held for the post-condition to come about.
+const GRACE: f64 = 1.0;
+
 /// A state of the machine.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -38,6 +41,9 @@ pub struct PoseState {
     /// Ends the state early when it holds.
     #[serde(default = "never", skip_serializing_if = "is_never")]
     pub until: Condition,
+    /// What must hold when the state's time is up, or the controller has failed.
+    #[serde(default = "always", skip_serializing_if = "is_always")]
+    pub expects: Condition,
     /// Stiffness relative to the nominal servos.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub stiffness: f64,
@@ -56,6 +62,14 @@ fn one() -> f64 {
 
 fn never() -> Condition {
     Condition::Never
+}
+
+fn always() -> Condition {
+    Condition::Always
+}
+
+fn is_always(c: &Condition) -> bool {
+    *c == Condition::Always
 }
 
 fn is_most(x: &f64) -> bool {
@@ -115,6 +129,7 @@ struct Key {
     duration: f64,
     ease: f64,
     until: Condition,
+    expects: Condition,
     stiffness: f64,
     next: usize,
 }
@@ -136,6 +151,8 @@ pub struct PoseController {
     target: Vec<f64>,
     /// When the last state ended, s.
     ended: Option<f64>,
+    /// Why it has failed, if it has.
+    missed: Option<String>,
 }
 
 impl Spec for PoseSpec {
@@ -164,6 +181,8 @@ impl Spec for PoseSpec {
             bounded(&at, "next", next as f64, 0.0, self.states.len() as f64)?;
             let mut until = state.until.clone();
             until.resolve(model)?;
+            let mut expects = state.expects.clone();
+            expects.resolve(model)?;
             keys.push(Key {
                 pose: if self.mirror {
                     mirrored(model, &pose)
@@ -173,6 +192,7 @@ impl Spec for PoseSpec {
                 duration: state.duration,
                 ease: state.ease,
                 until,
+                expects,
                 stiffness: state.stiffness,
                 next,
             });
@@ -211,6 +231,7 @@ impl Spec for PoseSpec {
             from: vec![0.0; joints],
             target: vec![0.0; joints],
             ended: None,
+            missed: None,
             contract,
         }))
     }
@@ -235,6 +256,7 @@ impl Controller for PoseController {
 
     fn enter(&mut self, now: &Sensors) {
         self.ended = None;
+        self.missed = None;
         self.target.copy_from_slice(now.state.angles());
         self.begin(now, 0);
     }
@@ -242,7 +264,12 @@ impl Controller for PoseController {
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
         let key = &self.keys[self.key];
         let duration = key.duration * self.slowness;
-        if now.time - self.since >= duration || key.until.holds(now) {
+        if key.until.holds(now) {
+            self.begin(now, key.next);
+        } else if now.time - self.since >= duration && self.ended.is_none() {
+            if let Some(refusal) = key.expects.first_failure(now) {
+                self.missed = Some(format!("after state {}: expected {refusal}", self.key));
+            }
             self.begin(now, key.next);
         }
         let key = &self.keys[self.key];
@@ -270,9 +297,15 @@ impl Controller for PoseController {
         if let Some(refusal) = contract.expected.first_failure(now) {
             return Progress::Failed(format!("expected {refusal}"));
         }
+        if let Some(missed) = &self.missed {
+            return Progress::Failed(missed.clone());
+        }
         // Success before the last state has been gone through would cut the motion short.
         if self.ended.is_some() && kept.is_some_and(|k| k >= contract.hold) {
             return Progress::Succeeded;
+        }
+        if self.ended.is_some_and(|e| now.time - e > contract.hold + GRACE) && kept.is_none() {
+            return Progress::Failed("its last pose did not bring it about".to_owned());
         }
         if elapsed > contract.patience {
             return Progress::Failed(format!("not done after {} s", contract.patience));

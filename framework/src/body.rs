@@ -17,6 +17,8 @@ use crate::state::{State, wrapped};
 
 /// A gap below which a link touches, m.
 const TOUCHING: f32 = 3e-3;
+/// A contact within this distance of a knee's hinge is the knee's, m.
+const KNEE: f64 = 0.1;
 /// A contact supports a link if its normal on the link points up by at least this.
 const SUPPORTING: f32 = 0.5;
 /// Friction of a character's skin. The smaller coefficient of a contact counts, so that in
@@ -130,6 +132,7 @@ impl Body {
                 0.5 * (f.heel[0] + f.toe[0])
             });
             let mut contact = LinkContact::default();
+            let knee = self.model.knee(i);
             let mut sole = FootContact::default();
             let mut moment = 0.0;
             for pair in narrow_phase.contact_pairs_with(*collider) {
@@ -143,6 +146,10 @@ impl Body {
                     if p.normal_up < SUPPORTING {
                         return;
                     }
+                    let at_knee = knee.is_some_and(|k| {
+                        (p.in_body[0] - k[0]).hypot(p.in_body[1] - k[1]) < KNEE
+                    });
+                    contact.knee = at_knee && (contact.knee || !contact.supported);
                     contact.supported = true;
                     lowest = lowest.min(p.at[1]);
                     let [rear, front] = sole.support.unwrap_or([p.at[0], p.at[0]]);

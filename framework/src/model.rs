@@ -316,6 +316,16 @@ impl Model {
         self.feet.iter().any(|f| parent(f) == Some(link))
     }
 
+    /// The hinge of a shank that hangs on the link, in the link's frame: the end that is knelt on.
+    #[must_use]
+    pub fn knee(&self, link: usize) -> Option<Point> {
+        let hinge = |(i, l): (usize, &Link)| {
+            let joint = l.joint.as_ref().filter(|j| j.parent == link)?;
+            self.is_shank(i).then_some(joint.anchor)
+        };
+        self.links.iter().enumerate().find_map(hinge)
+    }
+
     /// Whether the character sits on the link: the root, or a link that a shank hangs on.
     #[must_use]
     pub fn is_seat(&self, link: usize) -> bool {

@@ -21,7 +21,7 @@ pub enum Posture {
     Crouching,
     /// Hands support it, and nothing but hands and feet.
     HandsAndFeet,
-    /// Shanks support it, and nothing but shanks, hands and feet.
+    /// Shanks or knees support it, and nothing but these, hands and feet.
     Kneeling,
     /// Something else supports it and the trunk is within 0.9 rad of upright.
     Sitting,
@@ -57,6 +57,8 @@ pub struct LinkContact {
     pub touching: bool,
     /// Whether something touches it from below: the ground, a step, a crate it lies on.
     pub supported: bool,
+    /// Whether that is only at its knee, the hinge of a shank.
+    pub knee: bool,
     /// Force on the link over the last step by all that touches it, N, world frame.
     pub force: Point,
 }
@@ -235,7 +237,7 @@ impl Sensors {
     fn judge_posture(&self) -> Posture {
         let model = &self.model;
         let (mut feet, mut hands, mut shanks, mut rest) = (false, false, false, false);
-        for (i, _) in self
+        for (i, contact) in self
             .contacts
             .iter()
             .enumerate()
@@ -245,7 +247,7 @@ impl Sensors {
                 feet = true;
             } else if model.is_hand(i) {
                 hands = true;
-            } else if model.is_shank(i) {
+            } else if model.is_shank(i) || contact.knee {
                 shanks = true;
             } else {
                 rest = true;

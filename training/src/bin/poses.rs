@@ -39,6 +39,19 @@ fn go<T: aplomb_training::tune::Tunable + Spec>(a: &[String]) -> Result<(), Box<
         (ok, time)
     };
     eprintln!("base {:?}", report(&base));
+    if evals == 0 {
+        for x in &s {
+            let now = x.sensors(0);
+            let f = |n: &str| { let mut f: aplomb_framework::feature::Feature = n.parse().unwrap(); f.resolve(&model).unwrap(); f.value(now) };
+            let mut run = x.clone();
+            run.set_mind(0, mind.clone());
+            let n0 = run.events().len();
+            let b = run.time();
+            while run.time() < b + longest { run.step(); }
+            let ev: Vec<String> = run.events()[n0..].iter().filter_map(|e| match &e.kind { aplomb_framework::trajectory::EventKind::Switch { to, why, .. } => Some(format!("{:.2}:{to}({why})", e.time - b)), _ => None }).take(3).collect();
+            println!("t={:.2} fr{:.2} tq{:.2} cf{:.2} cr{:.2} h{:.2} tp{:.2} sup{:.2} apart{:.2} vx{:.2} vy{:.2} feet{} H{:.1} | {}", b, x.world().settings().friction, x.world().settings().torque, f("capture_front"), f("capture_rear"), f("com_height"), f("trunk_pitch"), f("support_length"), f("feet_apart"), f("com_velocity_x"), f("com_velocity_y"), f("feet_touching"), f("angular_momentum"), ev.join(" "));
+        }
+    }
     if evals < 2 { return Ok(()); }
     let start = point_of(&base, &model);
     let dims = start.len();
