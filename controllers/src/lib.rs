@@ -50,12 +50,22 @@ macro_rules! shipped {
 
 const FILES: &[(&str, &str)] = shipped![
     "poses/bow.ron",
+    "poses/free_arms.ron",
+    "poses/lower.ron",
+    "poses/rise_hands_and_feet.ron",
+    "poses/rise_kneeling.ron",
+    "poses/rise_prone.ron",
+    "poses/rise_sitting.ron",
+    "poses/rise_supine.ron",
+    "poses/roll.ron",
     "repertoires/humanoid.ron",
     "repertoires/limp.ron",
     "repertoires/paper.ron",
     "skills/balance.ron",
     "skills/balance_equality.ron",
     "skills/fall.ron",
+    "skills/protective_step.ron",
     "skills/rest.ron",
     "skills/stance.ron",
+    "skills/stand_up.ron",
 ];

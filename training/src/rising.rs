@@ -147,7 +147,7 @@ pub fn cost(starts: &[Simulation], mind: &Supervisor, contract: &Contract, goal:
     let one = |start: &Simulation| {
         let r = rise(start, mind, contract, goal, longest);
         let hurt = r.head_force / 3000.0 + r.trunk_force / 10_000.0;
-        let price = 0.05 * r.time + 0.1 * hurt + 0.002 * r.motion.min(50.0);
+        let price = 0.1 * r.time + 0.1 * hurt + 0.002 * r.motion.min(50.0);
         if r.reached { price } else { 2.0 - r.nearest + price.min(0.8) }
     };
     starts.iter().map(one).sum::<f64>() / starts.len().max(1) as f64
