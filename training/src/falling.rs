@@ -5,6 +5,7 @@
 use aplomb_framework::Result;
 use aplomb_framework::registry::Registry;
 use aplomb_framework::sensors::{Posture, Sensors};
+use aplomb_framework::simulation::Simulation;
 
 use crate::standing::{Push, Site};
 
@@ -52,12 +53,18 @@ pub fn pushes(low: f64, high: f64, count: usize) -> Vec<Push> {
 /// # Errors
 /// An invalid repertoire.
 pub fn land(text: &str, registry: &Registry, push: Push) -> Result<Landing> {
-    let mut run = push.begin(text, registry)?;
+    Ok(land_from(push.begin(text, registry)?, push.impulse > 0.0, SETTLED))
+}
+
+/// One fall from the moment of its push, forward or backward, watched for `longest` s.
+#[must_use]
+pub fn land_from(mut run: Simulation, forward: bool, longest: f64) -> Landing {
+    let begun = run.time();
     let mut landing = Landing::default();
     let mut first: Option<bool> = None;
     let (mut head, mut trunk, mut head_before) = (0.0, 0.0, 0.0);
     let mix = run.world().settings().dt / FILTER;
-    while run.time() < push.at + SETTLED {
+    while run.time() < begun + longest {
         run.step();
         let now = run.sensors(0);
         let model = &now.model;
@@ -75,14 +82,14 @@ pub fn land(text: &str, registry: &Registry, push: Push) -> Result<Landing> {
         let v = now.kinematics.links[model.head].com_velocity;
         head_before = v[0].hypot(v[1]);
         if first.is_none() {
-            first = first_touch(now, push.impulse > 0.0);
+            first = first_touch(now, forward);
         }
     }
     let now = run.sensors(0);
     landing.fell = !matches!(now.posture, Posture::Standing | Posture::Crouching);
     landing.protected = first.unwrap_or(true);
     landing.settled = now.com_velocity[0].hypot(now.com_velocity[1]) < 0.05;
-    Ok(landing)
+    landing
 }
 
 /// Once hands, seat, trunk or head touch: whether that protects a fall in this direction.

@@ -43,7 +43,7 @@ pub fn pushed(
         run.run(PUSH_AT + rng.gen_range(0.0..0.2));
         let part = (i / 2) as f64 / ((count / 2).max(2) - 1) as f64;
         let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
-        let link = if (i / 2) % 3 == 2 { 0 } else { model.trunk };
+        let link = if low >= 55.0 { [model.trunk, 0, model.head][(i / 2) % 3] } else if (i / 2) % 3 == 2 { 0 } else { model.trunk };
         run.push(0, &model.links[link].name, sign * (low + part * (high - low)))?;
         Ok(run)
     };

@@ -28,7 +28,12 @@ pub(super) enum Part {
 
 const PARTS: usize = 7;
 
-/// One fall, from the first touch of anything but feet until the character stands again.
+/// m/s; a slower centre of mass is at rest.
+const REST: f64 = 0.15;
+/// s of rest that end a fall: what touches after it belongs to getting up.
+const RESTED: f64 = 0.1;
+
+/// One fall, from the first touch of anything but feet until the character lies still.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Fall {
     /// Whether it went forward.
@@ -91,6 +96,8 @@ pub(super) struct Watch {
     head_speed: f64,
     impact: Impact,
     falling: Option<Fall>,
+    /// Since when it has been at rest, s.
+    resting: Option<f64>,
     falls: Vec<Fall>,
     rising: Rising,
 }
@@ -106,6 +113,7 @@ impl Watch {
             head_speed: 0.0,
             impact: Impact::new(dt),
             falling: None,
+            resting: None,
             falls: Vec::new(),
             rising: Rising::new(fallen),
         }
@@ -132,6 +140,11 @@ impl Watch {
         }
         if self.rising.observe(now) {
             self.upright = true;
+            self.falls.extend(self.falling.take());
+        }
+        if now.com_velocity[0].hypot(now.com_velocity[1]) > REST {
+            self.resting = None;
+        } else if now.time - *self.resting.get_or_insert(now.time) > RESTED {
             self.falls.extend(self.falling.take());
         }
         self.impact.observe(now);
@@ -171,6 +184,7 @@ mod tests {
         let mut now = Sensors::new(&model, 9.81);
         for (i, links) in touches.iter().enumerate() {
             now.time = i as f64;
+            now.com_velocity = [1.0, 0.0];
             now.kinematics.links[model.head].com_velocity = [0.0, -1.0 - i as f64];
             for (link, contact) in model.links.iter().zip(&mut now.contacts) {
                 contact.touching = links.contains(&link.name.as_str());
