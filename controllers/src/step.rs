@@ -80,6 +80,9 @@ pub struct StepSpec {
     pub climb: f64,
 }
 
+/// s after which catching aims twice as far as the foot.
+const LEANING: f64 = 0.5;
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Phase {
     /// A foot moves to catch the fall.
@@ -329,7 +332,12 @@ impl Step {
                 let swing = self.swing(now, foot, to, p.swing_time, p.lift);
                 (Self::sole(now, 1 - foot)[0], Some(swing), p.lean)
             }
-            Phase::Catch { over } => ([a, b][over], None, 0.0),
+            Phase::Catch { over } => {
+                // The longer it takes, the harder it leans: a wide stance pulls back.
+                let foot = [a, b][over];
+                let lean = (now.time - self.since) / LEANING;
+                (foot + lean * (foot - now.com[0]), None, 0.0)
+            }
             Phase::Close { foot, over } => {
                 let to = [a, b][over];
                 let swing = self.swing(now, foot, to, self.spec.close_time, self.spec.close_lift);
