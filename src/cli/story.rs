@@ -22,7 +22,7 @@ pub(super) fn tell(out: &mut dyn Write) -> Result<Verdict> {
     check_writable(recording)?;
     writeln!(
         out,
-        "The humanoid stands, is pushed hard from the front, falls and rests."
+        "The humanoid stands, is pushed hard from the front, falls, rolls over, rises; pushed again, it steps."
     )?;
     out.flush()?;
     let mut simulation = Simulation::new(&scenario, &aplomb::controllers::registry())?;
