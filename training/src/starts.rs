@@ -3,6 +3,7 @@
 //! seed, index → random heap or push → rollout under the rest of the repertoire until the
 //! controller's pre-condition holds → [`Simulation`] to be cloned for every candidate.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use aplomb_framework::Result;
@@ -23,6 +24,10 @@ const LONGEST: f64 = 7.0;
 const DROP: f64 = 0.02;
 /// N·s; pushes that nobody withstands.
 const PUSHES: [f64; 2] = [70.0, 260.0];
+/// Starts are looked for in so many situations for each that is asked for.
+const PATIENCE: usize = 50;
+/// So many without a single start are enough to give up.
+const HOPELESS: usize = 96;
 /// s; when characters are pushed.
 const PUSH_AT: f64 = 0.3;
 
@@ -38,7 +43,8 @@ pub struct Source {
 }
 
 /// The first `count` starts, by index, in which the repertoire hands over to the controller with this
-/// contract, or, if it acts only on command, in which its pre-condition holds.
+/// contract, or, if it acts only on command, in which its pre-condition holds. There are fewer where
+/// that is too rare. `watch` sees how many there are so far and may end the work.
 ///
 /// # Errors
 /// A mind for another character.
@@ -48,19 +54,25 @@ pub fn starts(
     model: &Arc<Model>,
     contract: &Contract,
     before: &Supervisor,
+    mut watch: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Vec<Simulation>> {
     let mut found: Vec<Simulation> = Vec::with_capacity(count);
     let mut next = 0;
+    let most = (PATIENCE * count).max(HOPELESS);
     // In batches of fixed size, so that the number of threads changes nothing.
-    while found.len() < count && next < 200 * count {
-        let batch: Vec<Option<Simulation>> = (next..next + 32)
+    let size = count.clamp(8, 32);
+    while found.len() < count && next < most && (next < HOPELESS || !found.is_empty()) {
+        let batch: Vec<Option<Simulation>> = (next..next + size)
             .into_par_iter()
             .map(|i| start(source, i as u64, model, contract, before))
             .collect::<Result<_>>()?;
         found.extend(batch.into_iter().flatten());
-        next += 32;
+        found.truncate(count);
+        next += size;
+        if watch(found.len()).is_break() {
+            break;
+        }
     }
-    found.truncate(count);
     Ok(found)
 }
 
