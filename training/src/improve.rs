@@ -125,6 +125,16 @@ fn search<T: Tunable + Spec>(
     if ended {
         return Ok(None);
     }
+    if exercise.starts() == 0 {
+        let problem = "met in none of the situations that were tried";
+        let accepted = "one that heaps on the floor or falls come to under the repertoire";
+        return Err(Error::invalid(
+            skill.name(),
+            "precondition",
+            problem,
+            accepted,
+        ));
+    }
     let measure = |point: &[f64]| {
         let built = Spec::build(at(&base, model, point), contract.clone(), model);
         let mind = built.and_then(|controller| skill.mind.with_replaced(controller));
@@ -321,6 +331,22 @@ mod tests {
         });
         let told = told.unwrap_err().to_string();
         assert!(told.contains("controller is another; accepted: "), "{told}");
+    }
+
+    #[test]
+    fn starts_that_never_come_are_said_so() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("x.ron");
+        let (_folder, skills) = skills(TUCK);
+        let skill = Skill::find(&skills, "never").unwrap();
+        let ended = improve(skill, plan(&out, 1, false), |_| ControlFlow::Break(()));
+        assert_eq!(ended.unwrap(), None);
+        let told = improve(skill, plan(&out, 1, false), |_| ControlFlow::Continue(()));
+        let told = told.unwrap_err().to_string();
+        assert!(
+            told.contains("never: precondition is met in none"),
+            "{told}"
+        );
     }
 
     #[test]

@@ -180,7 +180,7 @@ fn check(path: &Path, line: &str, header: &Header) -> Result<()> {
         let found = found.and_then(|w| w.strip_prefix('='));
         let found = found.unwrap_or("missing");
         if found != value {
-            let accepted = format!("{value}, as of the search that is to go on");
+            let accepted = format!("{value}, which this search has");
             return Err(Error::invalid(place, *name, found, accepted));
         }
     }
@@ -256,7 +256,7 @@ mod tests {
         let refusal = || Journal::resume(&path, &header(1)).unwrap_err().to_string();
         assert!(refusal().contains("cannot read"), "{}", refusal());
         Journal::begin(&path, &header(2), "").unwrap();
-        let told = "seed is 2; accepted: 1, as of";
+        let told = "seed is 2; accepted: 1, which this";
         assert!(refusal().contains(told), "{}", refusal());
         for text in ["", "x\n", "aplomb-journal-1 seed=1\n", "no end"] {
             std::fs::write(&path, text).unwrap();

@@ -86,8 +86,8 @@ pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Go
     let mut run = start.clone();
     run.set_mind(0, mind.clone());
     if let Some(command) = contract.commands.first() {
-        // Its pre-condition held a moment ago. If it no longer does, the repertoire decides, as it
-        // would have.
+        // Its pre-condition holds: this is where it took over. Nobody answers only if the repertoire
+        // lacks the controller; then the others do what they can.
         drop(run.command(0, &command.name));
     }
     let begun = run.time();

@@ -2,6 +2,8 @@
 //!
 //! seed, index → random heap or push → rollout under the rest of the repertoire until the
 //! controller's pre-condition holds → [`Simulation`] to be cloned for every candidate.
+//!
+//! Starts do not depend on the controller's own numbers, only on its contract and the others'.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -107,13 +109,18 @@ fn start(
         let sign = if rng.gen_range(0..2) == 0 { 1.0 } else { -1.0 };
         run.push(0, &model.links[link].name, sign * impulse)?;
     }
+    let begun = run.clone();
+    let mut steps = 0;
     while run.time() < LONGEST {
         run.step();
-        let mind = &run.actors()[0].mind;
-        let taken = mind.active() == Some(&contract.name);
+        let taken = run.actors()[0].mind.active() == Some(&contract.name);
         if taken || contract.weight == 0 && contract.precondition.holds(run.sensors(0)) {
-            return Ok(Some(run));
+            // Up to the step in which it took over, so that what it did in it does not matter.
+            let mut before = begun;
+            (0..steps).for_each(|_| before.step());
+            return Ok(Some(before));
         }
+        steps += 1;
     }
     Ok(None)
 }
