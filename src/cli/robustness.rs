@@ -47,7 +47,7 @@ pub(super) struct RobustnessArgs {
     cast: CastArgs,
     /// Number of starts in every world
     #[arg(long, value_name = "N", default_value = "200",
-          value_parser = whole(1, 100_000), allow_negative_numbers = true)]
+          value_parser = whole(1, 10_000), allow_negative_numbers = true)]
     starts: u64,
     /// Fixes everything random
     #[arg(long, value_name = "N", default_value = "0",

@@ -253,11 +253,11 @@ mod tests {
     }
 
     /// Digests of the starts, and the score, on so many threads.
-    fn exercised(threads: usize, name: &str) -> (Vec<String>, Score) {
+    fn exercised(threads: usize, text: &str) -> (Vec<String>, Score) {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.unwrap().install(|| {
-            let (_folder, skills) = skills(TUCK);
-            let skill = Skill::find(&skills, name).unwrap();
+            let (_folder, skills) = skills(text);
+            let skill = Skill::find(&skills, "tuck").unwrap();
             let drill = Drill::training(3, 5);
             let exercise = Exercise::new(skill, drill, |_| ControlFlow::Continue(())).unwrap();
             let digests = exercise.starts.iter().map(Simulation::digest).collect();
@@ -267,9 +267,13 @@ mod tests {
 
     #[test]
     fn starts_and_scores_are_the_same_on_any_number_of_threads() {
-        let (starts, score) = exercised(1, "tuck");
+        let (starts, score) = exercised(1, TUCK);
         assert_eq!(starts.len(), 3);
-        assert_eq!(exercised(2, "tuck"), (starts, score));
+        assert_eq!(exercised(2, TUCK), (starts.clone(), score));
         assert!(score.reached > 0 && score.cost < 2.0, "{score:?}");
+        // Other numbers of the controller: the same starts.
+        let (same, other) = exercised(2, &TUCK.replace(r#""hip": 0.5"#, r#""hip": 0.7"#));
+        assert_eq!(same, starts);
+        assert_ne!(other, score);
     }
 }

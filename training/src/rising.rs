@@ -170,3 +170,56 @@ fn nearness(now: &Sensors, goal: Goal) -> f64 {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use aplomb_framework::model::Model;
+    use aplomb_framework::repertoire;
+    use aplomb_framework::scenario::Scenario;
+    use std::sync::Arc;
+
+    fn goal(postcondition: &str) -> Goal {
+        let text = format!(
+            r#"(name: "x", weight: 1, precondition: Always, postcondition: {postcondition})"#
+        );
+        Goal::of(&ron::from_str(&text).unwrap())
+    }
+
+    #[test]
+    fn the_goal_is_to_stand_unless_the_postcondition_is_off_the_feet() {
+        assert_eq!(goal("Posture([standing])"), Goal::Stand);
+        assert_eq!(goal("Posture([hands_and_feet, crouching])"), Goal::Stand);
+        assert_eq!(
+            goal(r#"Within(feature: "com_height", min: 1)"#),
+            Goal::Stand
+        );
+        let prone = "All([Within(feature: \"com_speed\", max: 1), Posture([prone, supine])])";
+        assert_eq!(goal(prone), Goal::Reach(Posture::Prone));
+    }
+
+    /// A controller of the shipped repertoire, from standing upright or lying on the back.
+    fn shipped(name: &str, pitch: f64, goal: Goal) -> Rising {
+        let model = Model::load("humanoid").unwrap();
+        let registry = aplomb_controllers::registry();
+        let mind = repertoire::load("humanoid", &registry, &model).unwrap();
+        let mut pool = mind.controllers().map(|c| c.contract().clone());
+        let contract = pool.find(|c| c.name == name).unwrap();
+        let mut scenario = Scenario::standing("humanoid", 10.0);
+        scenario.characters[0].start.pitch = pitch;
+        let cast = vec![(Arc::clone(&model), mind.clone())];
+        let mut start = Simulation::with_cast(&scenario, cast).unwrap();
+        start.run(0.5);
+        rise(&start, &mind, &contract, goal)
+    }
+
+    #[test]
+    fn standing_costs_little_and_staying_down_much() {
+        let bow = shipped("bow", 0.0, Goal::Stand);
+        assert!(bow.reached && bow.cost() < 0.1, "{bow:?}");
+        assert!((bow.time - STEADY).abs() < 0.01, "{bow:?}");
+        let rest = shipped("rest", std::f64::consts::FRAC_PI_2, Goal::Stand);
+        assert!(!rest.reached && rest.nearest < 0.5, "{rest:?}");
+        assert!(rest.cost() > 1.5, "{rest:?}");
+    }
+}
