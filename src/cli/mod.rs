@@ -7,13 +7,16 @@ mod json;
 mod output;
 mod progress;
 mod render;
+mod robustness;
 mod run;
 mod scene;
 mod shell;
 mod story;
 mod timeline;
+mod train;
 mod trials;
 mod values;
+mod work;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -48,6 +51,9 @@ enum Command {
     Trials(trials::TrialsArgs),
     Shell(shell::ShellArgs),
     Controllers(controllers::ControllersArgs),
+    #[command(subcommand)]
+    Train(train::TrainCommand),
+    Robustness(robustness::RobustnessArgs),
     Render(render::RenderArgs),
 }
 
@@ -70,6 +76,8 @@ impl Cli {
             Some(Command::Trials(args)) => args.run(out),
             Some(Command::Shell(args)) => args.run(out),
             Some(Command::Controllers(args)) => args.run(out),
+            Some(Command::Train(command)) => command.run(out),
+            Some(Command::Robustness(args)) => args.run(out),
             Some(Command::Render(args)) => args.run(out),
         }
     }

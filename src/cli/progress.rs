@@ -9,9 +9,9 @@ use aplomb::framework::simulation::Simulation;
 /// s simulated between two looks at the clock.
 const CHUNK: f64 = 0.1;
 
-/// A bar of `length` pieces of work.
+/// A bar of `length` pieces of work, with room for a message behind it.
 pub(super) fn bar(length: u64, unit: &str) -> ProgressBar {
-    let template = format!("{{bar:40}} {{pos}}/{{len}} {unit}, {{eta}} left");
+    let template = format!("{{bar:40}} {{pos}}/{{len}} {unit}, {{eta}} left{{msg}}");
     let style = ProgressStyle::with_template(&template);
     let bar = ProgressBar::new(length);
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));

@@ -9,6 +9,7 @@ mod help;
 mod output;
 mod run;
 mod shell;
+mod train;
 mod trials;
 
 use std::path::Path;

@@ -1,7 +1,9 @@
 //! Covariance matrix adaptation (Hansen 2006) in the unit cube, through the `cmaes` crate.
 //!
-//! Parallel over the candidates of a generation; the same seed gives the same result whatever the
-//! number of threads.
+//! Parallel over the candidates of a generation, which are asked for in no fixed order; the same
+//! seed and costs give the same candidates whatever the number of threads.
+
+use std::ops::ControlFlow;
 
 use cmaes::{CMAESOptions, DVector};
 
@@ -12,7 +14,7 @@ pub struct Search {
     pub sigma: f64,
     /// Candidates a generation.
     pub population: usize,
-    /// At most this many evaluations.
+    /// Ends with the generation that reaches this many evaluations; the first is that of the start.
     pub evaluations: usize,
     /// Fixes the candidates.
     pub seed: u64,
@@ -28,7 +30,8 @@ pub struct Best {
 }
 
 /// Minimises `cost` over the unit cube from `start`. Candidates outside the cube are moved to its
-/// face and charged for the distance. `watch` sees the evaluations so far and the best.
+/// face and charged for the distance. `watch` sees the evaluations so far and the best, after the
+/// start and then after each generation, and may end the search.
 ///
 /// # Panics
 /// If `start` is empty.
@@ -36,7 +39,7 @@ pub fn minimise(
     start: &[f64],
     search: Search,
     cost: impl Fn(&[f64]) -> f64 + Sync,
-    mut watch: impl FnMut(usize, &Best),
+    mut watch: impl FnMut(usize, &Best) -> ControlFlow<()>,
 ) -> Best {
     let charged = |x: &DVector<f64>| {
         let inside: Vec<f64> = x.iter().map(|v| v.clamp(0.0, 1.0)).collect();
@@ -47,19 +50,20 @@ pub fn minimise(
         point: start.to_vec(),
         cost: cost(start),
     };
-    watch(1, &best);
+    let mut evaluations = 1;
+    let mut ended = watch(evaluations, &best).is_break();
     let options = CMAESOptions::new(start.to_vec(), search.sigma)
         .population_size(search.population)
         .seed(search.seed)
-        .max_function_evals(search.evaluations)
         .tol_fun(1e-9)
         .tol_stagnation(1000);
     let mut state = match options.build(charged) {
         Ok(state) => state,
         Err(e) => panic!("a search cannot start: {e:?}"),
     };
-    loop {
-        let end = state.next_parallel();
+    while !ended && evaluations < search.evaluations {
+        ended = state.next_parallel().is_some();
+        evaluations = 1 + state.function_evals();
         if let Some(found) = state
             .overall_best_individual()
             .filter(|b| b.value < best.cost)
@@ -67,11 +71,9 @@ pub fn minimise(
             best.cost = found.value;
             best.point = found.point.iter().map(|v| v.clamp(0.0, 1.0)).collect();
         }
-        watch(state.function_evals(), &best);
-        if end.is_some() {
-            return best;
-        }
+        ended |= watch(evaluations, &best).is_break();
     }
+    best
 }
 
 #[cfg(test)]
@@ -93,8 +95,10 @@ mod tests {
                 .map(|(a, b)| (a - b).powi(2))
                 .sum::<f64>()
         };
-        pool.map(|p| p.install(|| minimise(&[0.5; 3], search, cost, |_, _| {})))
-            .unwrap_or_else(|e| panic!("{e}"))
+        pool.map(|p| {
+            p.install(|| minimise(&[0.5; 3], search, cost, |_, _| ControlFlow::Continue(())))
+        })
+        .unwrap_or_else(|e| panic!("{e}"))
     }
 
     #[test]
@@ -102,5 +106,31 @@ mod tests {
         let (one, two) = (search(1), search(2));
         assert!(one.cost < 1e-8, "{one:?}");
         assert_eq!(one, two);
+    }
+
+    #[test]
+    fn generations_are_whole_and_the_watch_may_end_the_search() {
+        let count = |evaluations: usize, most: usize| {
+            let search = Search {
+                sigma: 0.2,
+                population: 6,
+                evaluations,
+                seed: 1,
+            };
+            let mut seen = Vec::new();
+            let cost = |x: &[f64]| x[0] + x[1];
+            minimise(&[0.5; 2], search, cost, |n, _| {
+                seen.push(n);
+                if seen.len() < most {
+                    ControlFlow::Continue(())
+                } else {
+                    ControlFlow::Break(())
+                }
+            });
+            seen
+        };
+        assert_eq!(count(1, 9), [1]);
+        assert_eq!(count(8, 9), [1, 7, 13]);
+        assert_eq!(count(100, 2), [1, 7]);
     }
 }

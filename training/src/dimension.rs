@@ -46,6 +46,16 @@ impl Dimension {
         }
     }
 
+    /// The same dimension, reaching at least to a number.
+    #[must_use]
+    pub fn including(mut self, value: f64) -> Self {
+        if value > 0.0 || !self.logarithmic {
+            self.low = self.low.min(value);
+            self.high = self.high.max(value);
+        }
+        self
+    }
+
     /// The coordinate of a number, moved into 0..1.
     #[must_use]
     pub fn unit(&self, value: f64) -> f64 {
@@ -69,6 +79,11 @@ mod tests {
                 assert!((d.unit(d.value(u)) - u).abs() < 1e-12);
             }
             assert_eq!(d.unit(d.low - 1.0), 0.0);
+            let wide = d.clone().including(120.0).including(0.001);
+            assert_eq!([wide.low, wide.high], [d.low.min(0.001), 120.0]);
+            assert_eq!(d.clone().including(0.5), d);
         }
+        let log = logarithmic("b", 0.01, 100.0);
+        assert_eq!(log.clone().including(-1.0), log);
     }
 }

@@ -1,15 +1,35 @@
 //! Optimisation of Aplomb's controllers over many perturbed rollouts.
 //!
-//! - [`cma_es`]: bounded minimisation by CMA-ES, parallel and deterministic
-//! - [`dimension`]: what is optimised, mapped to the unit cube
+//! Controllers of a repertoire, in random worlds:
+//!
+//! - [`skill`]: a controller with the repertoire around it
+//! - [`worlds`]: friction, strength and mass that the controllers do not know
+//! - [`starts`]: heaps and falls from which the repertoire hands over to a controller
+//! - [`rising`]: how well a controller brings a character that is down to its goal
+//! - [`stepping`]: how well a step takes pushes
+//! - [`exercise`]: which of the two a controller is measured by, and its score
+//! - [`improve`](mod@improve): skill → better controller file
+//! - [`journal`]: what a search has found out so far, on disk
+//!
+//! Controllers alone:
+//!
 //! - [`falling`]: how well a falling controller protects
 //! - [`standing`]: how well a standing controller takes pushes at its limit
-//! - [`tune`]: controller file → optimised controller file
+//!
+//! All of them:
+//!
+//! - [`tune`]: controller file ↔ point of the unit cube
+//! - [`dimension`]: what is optimised, mapped to the unit cube
+//! - [`cma_es`]: bounded minimisation by CMA-ES, parallel and deterministic
 
 pub mod cma_es;
 pub mod dimension;
+pub mod exercise;
 pub mod falling;
+pub mod improve;
+pub mod journal;
 pub mod rising;
+pub mod skill;
 pub mod standing;
 pub mod starts;
 pub mod stepping;

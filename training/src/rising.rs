@@ -2,17 +2,19 @@
 //!
 //! starts, mind → rollouts → success, time, impacts → cost.
 
-use aplomb_framework::contract::Contract;
 use aplomb_framework::condition::Condition;
-use aplomb_framework::trajectory::EventKind;
+use aplomb_framework::contract::Contract;
 use aplomb_framework::sensors::{Posture, Sensors};
 use aplomb_framework::simulation::Simulation;
 use aplomb_framework::supervisor::Supervisor;
+use aplomb_framework::trajectory::EventKind;
 
 /// Impacts are averaged over this time, s.
 const FILTER: f64 = 0.01;
 /// s for which the character must stand to have risen.
 const STEADY: f64 = 0.3;
+/// s within which the goal is to be reached.
+const LONGEST: f64 = 10.0;
 
 /// What a controller is to bring about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,20 +26,23 @@ pub enum Goal {
 }
 
 impl Goal {
-    /// Of a contract: standing if its post-condition is met on the feet, else the post-condition.
+    /// Of a contract: standing if its post-condition names a posture on the feet alone or none at all,
+    /// else the post-condition.
     #[must_use]
     pub fn of(contract: &Contract) -> Self {
-        match first_posture(&contract.postcondition) {
-            Some(Posture::Standing | Posture::Crouching) | None => Self::Stand,
-            Some(posture) => Self::Reach(posture),
+        let any = postures(&contract.postcondition).unwrap_or_default();
+        let on_feet = |p: &Posture| matches!(p, Posture::Standing | Posture::Crouching);
+        match any.first() {
+            Some(first) if !any.iter().any(on_feet) => Self::Reach(*first),
+            _ => Self::Stand,
         }
     }
 }
 
-fn first_posture(condition: &Condition) -> Option<Posture> {
+fn postures(condition: &Condition) -> Option<&[Posture]> {
     match condition {
-        Condition::Posture(any) => any.first().copied(),
-        Condition::All(all) => all.iter().find_map(first_posture),
+        Condition::Posture(any) => Some(any),
+        Condition::All(all) => all.iter().find_map(postures),
         _ => None,
     }
 }
@@ -59,17 +64,38 @@ pub struct Rising {
     pub motion: f64,
 }
 
-/// Runs `mind`, whose first controller is the one that is judged, from a start.
+impl Rising {
+    /// What it is charged: time, impacts and needless motion, each little, and much for a goal that
+    /// is missed, the more the farther.
+    #[must_use]
+    pub fn cost(&self) -> f64 {
+        let hurt = self.head_force / 3000.0 + self.trunk_force / 10_000.0;
+        let price = 0.1 * self.time + 0.1 * hurt + 0.002 * self.motion.min(50.0);
+        if self.reached {
+            price
+        } else {
+            2.0 - self.nearest + price.min(0.8)
+        }
+    }
+}
+
+/// Runs `mind` from a start, at which it is commanded to the controller with this contract, until
+/// the goal is reached or any controller fails.
 #[must_use]
-pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Goal, longest: f64) -> Rising {
+pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Goal) -> Rising {
     let mut run = start.clone();
     run.set_mind(0, mind.clone());
+    if let Some(command) = contract.commands.first() {
+        // Its pre-condition holds: this is where it took over. Nobody answers only if the repertoire
+        // lacks the controller; then the others do what they can.
+        drop(run.command(0, &command.name));
+    }
     let begun = run.time();
     let mix = run.world().settings().dt / FILTER;
     let (mut head, mut trunk, mut steady, mut kept) = (0.0, 0.0, 0.0, 0.0);
     let mut all = Rising {
         reached: false,
-        time: longest,
+        time: LONGEST,
         nearest: 0.0,
         head_force: 0.0,
         trunk_force: 0.0,
@@ -77,7 +103,7 @@ pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Go
     };
     let mut steps = 0.0;
     let mut seen = run.events().len();
-    while run.time() - begun < longest {
+    while run.time() - begun < LONGEST {
         run.step();
         let now = run.sensors(0);
         let dt = run.world().settings().dt;
@@ -96,13 +122,17 @@ pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Go
                 all.reached = steady >= STEADY;
             }
             Goal::Reach(_) => {
-                kept = if contract.postcondition.holds(now) { kept + dt } else { 0.0 };
+                kept = if contract.postcondition.holds(now) {
+                    kept + dt
+                } else {
+                    0.0
+                };
                 all.reached = kept >= contract.hold && name != contract.name;
             }
         }
-        let given_up = run.events()[seen..].iter().any(|e| {
-            matches!(&e.kind, EventKind::Switch { why, .. } if why.starts_with("failed"))
-        });
+        let given_up = run.events()[seen..]
+            .iter()
+            .any(|e| matches!(&e.kind, EventKind::Switch { why, .. } if why.starts_with("failed")));
         seen = run.events().len();
         if all.reached || given_up {
             break;
@@ -141,14 +171,55 @@ fn nearness(now: &Sensors, goal: Goal) -> f64 {
     }
 }
 
-/// Mean over the starts.
-#[must_use]
-pub fn cost(starts: &[Simulation], mind: &Supervisor, contract: &Contract, goal: Goal, longest: f64) -> f64 {
-    let one = |start: &Simulation| {
-        let r = rise(start, mind, contract, goal, longest);
-        let hurt = r.head_force / 3000.0 + r.trunk_force / 10_000.0;
-        let price = 0.1 * r.time + 0.1 * hurt + 0.002 * r.motion.min(50.0);
-        if r.reached { price } else { 2.0 - r.nearest + price.min(0.8) }
-    };
-    starts.iter().map(one).sum::<f64>() / starts.len().max(1) as f64
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use aplomb_framework::model::Model;
+    use aplomb_framework::repertoire;
+    use aplomb_framework::scenario::Scenario;
+    use std::sync::Arc;
+
+    fn goal(postcondition: &str) -> Goal {
+        let text = format!(
+            r#"(name: "x", weight: 1, precondition: Always, postcondition: {postcondition})"#
+        );
+        Goal::of(&ron::from_str(&text).unwrap())
+    }
+
+    #[test]
+    fn the_goal_is_to_stand_unless_the_postcondition_is_off_the_feet() {
+        assert_eq!(goal("Posture([standing])"), Goal::Stand);
+        assert_eq!(goal("Posture([hands_and_feet, crouching])"), Goal::Stand);
+        assert_eq!(
+            goal(r#"Within(feature: "com_height", min: 1)"#),
+            Goal::Stand
+        );
+        let prone = "All([Within(feature: \"com_speed\", max: 1), Posture([prone, supine])])";
+        assert_eq!(goal(prone), Goal::Reach(Posture::Prone));
+    }
+
+    /// A controller of the shipped repertoire, from standing upright or lying on the back.
+    fn shipped(name: &str, pitch: f64, goal: Goal) -> Rising {
+        let model = Model::load("humanoid").unwrap();
+        let registry = aplomb_controllers::registry();
+        let mind = repertoire::load("humanoid", &registry, &model).unwrap();
+        let mut pool = mind.controllers().map(|c| c.contract().clone());
+        let contract = pool.find(|c| c.name == name).unwrap();
+        let mut scenario = Scenario::standing("humanoid", 10.0);
+        scenario.characters[0].start.pitch = pitch;
+        let cast = vec![(Arc::clone(&model), mind.clone())];
+        let mut start = Simulation::with_cast(&scenario, cast).unwrap();
+        start.run(0.5);
+        rise(&start, &mind, &contract, goal)
+    }
+
+    #[test]
+    fn standing_costs_little_and_staying_down_much() {
+        let bow = shipped("bow", 0.0, Goal::Stand);
+        assert!(bow.reached && bow.cost() < 0.1, "{bow:?}");
+        assert!((bow.time - STEADY).abs() < 0.01, "{bow:?}");
+        let rest = shipped("rest", std::f64::consts::FRAC_PI_2, Goal::Stand);
+        assert!(!rest.reached && rest.nearest < 0.5, "{rest:?}");
+        assert!(rest.cost() > 1.5, "{rest:?}");
+    }
 }

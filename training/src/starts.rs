@@ -2,7 +2,10 @@
 //!
 //! seed, index → random heap or push → rollout under the rest of the repertoire until the
 //! controller's pre-condition holds → [`Simulation`] to be cloned for every candidate.
+//!
+//! Starts do not depend on the controller's own numbers, only on its contract and the others'.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use aplomb_framework::Result;
@@ -23,6 +26,10 @@ const LONGEST: f64 = 7.0;
 const DROP: f64 = 0.02;
 /// N·s; pushes that nobody withstands.
 const PUSHES: [f64; 2] = [70.0, 260.0];
+/// Starts are looked for in so many situations for each that is asked for.
+const PATIENCE: usize = 50;
+/// So many without a single start are enough to give up.
+const HOPELESS: usize = 96;
 /// s; when characters are pushed.
 const PUSH_AT: f64 = 0.3;
 
@@ -38,7 +45,8 @@ pub struct Source {
 }
 
 /// The first `count` starts, by index, in which the repertoire hands over to the controller with this
-/// contract, or, if it acts only on command, in which its pre-condition holds.
+/// contract, or, if it acts only on command, in which its pre-condition holds. There are fewer where
+/// that is too rare. `watch` sees how many there are so far and may end the work.
 ///
 /// # Errors
 /// A mind for another character.
@@ -48,19 +56,25 @@ pub fn starts(
     model: &Arc<Model>,
     contract: &Contract,
     before: &Supervisor,
+    mut watch: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Vec<Simulation>> {
     let mut found: Vec<Simulation> = Vec::with_capacity(count);
     let mut next = 0;
+    let most = (PATIENCE * count).max(HOPELESS);
     // In batches of fixed size, so that the number of threads changes nothing.
-    while found.len() < count && next < 200 * count {
-        let batch: Vec<Option<Simulation>> = (next..next + 32)
+    let size = count.clamp(8, 32);
+    while found.len() < count && next < most && (next < HOPELESS || !found.is_empty()) {
+        let batch: Vec<Option<Simulation>> = (next..next + size)
             .into_par_iter()
             .map(|i| start(source, i as u64, model, contract, before))
             .collect::<Result<_>>()?;
         found.extend(batch.into_iter().flatten());
-        next += 32;
+        found.truncate(count);
+        next += size;
+        if watch(found.len()).is_break() {
+            break;
+        }
     }
-    found.truncate(count);
     Ok(found)
 }
 
@@ -95,13 +109,18 @@ fn start(
         let sign = if rng.gen_range(0..2) == 0 { 1.0 } else { -1.0 };
         run.push(0, &model.links[link].name, sign * impulse)?;
     }
+    let begun = run.clone();
+    let mut steps = 0;
     while run.time() < LONGEST {
         run.step();
-        let mind = &run.actors()[0].mind;
-        let taken = mind.active() == Some(&contract.name);
+        let taken = run.actors()[0].mind.active() == Some(&contract.name);
         if taken || contract.weight == 0 && contract.precondition.holds(run.sensors(0)) {
-            return Ok(Some(run));
+            // Up to the step in which it took over, so that what it did in it does not matter.
+            let mut before = begun;
+            (0..steps).for_each(|_| before.step());
+            return Ok(Some(before));
         }
+        steps += 1;
     }
     Ok(None)
 }

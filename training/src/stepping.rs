@@ -11,6 +11,7 @@ use aplomb_framework::simulation::Simulation;
 use aplomb_framework::supervisor::Supervisor;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
 
 use crate::worlds::Worlds;
 
@@ -21,33 +22,48 @@ const LONGEST: f64 = 6.0;
 /// s for which it must stand.
 const STEADY: f64 = 0.3;
 
-/// Characters at the moment of a push: `count` impulses evenly over `low` to `high` N·s, either
-/// way; two in three at the trunk, the others at the root, where the same impulse turns it less.
+/// Pushes either way, one after the other stronger.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pushes {
+    /// Weakest and strongest, N·s; even steps between.
+    pub impulse: [f64; 2],
+    /// Whether one in three is at the root, where the same impulse turns the character less; the
+    /// others are at the trunk.
+    pub at_root: bool,
+    /// How many.
+    pub count: usize,
+    /// Fixes worlds and moments.
+    pub seed: u64,
+}
+
+/// Characters that have stood under `mind`, at the moment at which they are pushed.
 ///
 /// # Errors
 /// A mind for another character.
 pub fn pushed(
     model: &Arc<Model>,
     mind: &Supervisor,
-    [low, high]: [f64; 2],
-    count: usize,
+    pushes: Pushes,
     worlds: Worlds,
-    seed: u64,
 ) -> Result<Vec<Simulation>> {
     let one = |i: usize| {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let mut rng = ChaCha8Rng::seed_from_u64(pushes.seed);
         rng.set_stream(i as u64);
         let mut scenario = Scenario::standing(&model.name, LONGEST);
         scenario.settings = worlds.draw(&mut rng);
         let mut run = Simulation::with_cast(&scenario, vec![(Arc::clone(model), mind.clone())])?;
         run.run(PUSH_AT + rng.gen_range(0.0..0.2));
-        let part = (i / 2) as f64 / ((count / 2).max(2) - 1) as f64;
+        let (pair, pairs) = (i / 2, pushes.count.div_ceil(2).max(2));
+        let part = pair as f64 / (pairs - 1) as f64;
         let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
-        let link = if low >= 55.0 { [model.trunk, 0, model.head][(i / 2) % 3] } else if (i / 2) % 3 == 2 { 0 } else { model.trunk };
-        run.push(0, &model.links[link].name, sign * (low + part * (high - low)))?;
+        let root = pushes.at_root && pair % 3 == 2;
+        let link = if root { 0 } else { model.trunk };
+        let [low, high] = pushes.impulse;
+        let impulse = sign * (low + part * (high - low));
+        run.push(0, &model.links[link].name, impulse)?;
         Ok(run)
     };
-    (0..count).map(one).collect()
+    (0..pushes.count).into_par_iter().map(one).collect()
 }
 
 /// What became of one push.
@@ -63,6 +79,20 @@ pub struct Stepped {
     pub bent: f64,
     /// Mean of the squared joint velocities, (rad/s)².
     pub motion: f64,
+}
+
+impl Stepped {
+    /// What it is charged: time, way, a bent trunk and needless motion, each little, and much for
+    /// coming down, the more the sooner.
+    #[must_use]
+    pub fn cost(&self) -> f64 {
+        if self.stood {
+            let motion = 0.003 * self.motion.min(100.0);
+            0.06 * self.time + 0.2 * self.way + 0.5 * self.bent.min(1.0) + motion
+        } else {
+            3.0 - 0.25 * self.time
+        }
+    }
 }
 
 /// Runs `mind` from a push on.
@@ -87,7 +117,10 @@ pub fn step(start: &Simulation, mind: &Supervisor) -> Stepped {
         all.bent += now.trunk_pitch().powi(2);
         all.motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
         let down = now.contacts.iter().enumerate();
-        if down.into_iter().any(|(i, c)| c.supported && !now.model.is_foot(i)) {
+        if down
+            .into_iter()
+            .any(|(i, c)| c.supported && !now.model.is_foot(i))
+        {
             break;
         }
         let feet: Vec<f64> = now
@@ -96,8 +129,14 @@ pub fn step(start: &Simulation, mind: &Supervisor) -> Stepped {
             .iter()
             .map(|f| now.kinematics.links[f.link].origin[0])
             .collect();
-        let apart = feet.iter().fold(0.0, |a: f64, x| a.max((x - feet[0]).abs()));
-        steady = if now.stands() && apart < 0.06 { steady + dt } else { 0.0 };
+        let apart = feet
+            .iter()
+            .fold(0.0, |a: f64, x| a.max((x - feet[0]).abs()));
+        steady = if now.stands() && apart < 0.06 {
+            steady + dt
+        } else {
+            0.0
+        };
         if steady >= STEADY {
             all.stood = true;
             break;
@@ -108,18 +147,4 @@ pub fn step(start: &Simulation, mind: &Supervisor) -> Stepped {
     all.bent /= steps;
     all.motion /= steps;
     all
-}
-
-/// Mean over the pushes.
-#[must_use]
-pub fn cost(starts: &[Simulation], mind: &Supervisor) -> f64 {
-    let one = |start: &Simulation| {
-        let s = step(start, mind);
-        if s.stood {
-            0.06 * s.time + 0.2 * s.way + 0.5 * s.bent.min(1.0) + 0.003 * s.motion.min(100.0)
-        } else {
-            3.0 - 0.25 * s.time
-        }
-    };
-    starts.iter().map(one).sum::<f64>() / starts.len().max(1) as f64
 }

@@ -2,14 +2,15 @@
 //!
 //! controller file → dimensions → CMA-ES over rollouts → controller file, with seed and cost.
 
+mod balance;
+mod fall;
 mod pose;
+mod stance;
 mod step;
 
 use std::fmt::Write;
+use std::ops::ControlFlow;
 
-use aplomb_controllers::balance::BalanceSpec;
-use aplomb_controllers::fall::FallSpec;
-use aplomb_controllers::stance::StanceSpec;
 use aplomb_controllers::target::NamedAngles;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::file::{Source, options};
@@ -19,7 +20,7 @@ use aplomb_framework::{Error, Result};
 use serde::Serialize;
 
 use crate::cma_es::{Best, Search, minimise};
-use crate::dimension::{Dimension, linear, logarithmic};
+use crate::dimension::Dimension;
 
 /// A kind of controller whose spec can be optimised.
 pub trait Tunable: Sized + Clone + Serialize + serde::de::DeserializeOwned + Sync {
@@ -41,162 +42,22 @@ fn share_bend(pose: &mut NamedAngles) {
     }
 }
 
-impl Tunable for BalanceSpec {
-    const KIND: &'static str = "balance";
-
-    fn dimensions(&self, _: &Model) -> Vec<Dimension> {
-        vec![
-            logarithmic("kl", 5.0, 400.0),
-            logarithmic("dl", 3.0, 80.0),
-            logarithmic("kl_height", 10.0, 400.0),
-            logarithmic("dh", 0.1, 30.0),
-            logarithmic("kt", 2.0, 200.0),
-            logarithmic("dt", 1.0, 50.0),
-            logarithmic("angular", 0.01, 10.0),
-            logarithmic("tracking", 1e-4, 1.0),
-            logarithmic("root", 0.03, 30.0),
-            logarithmic("tilted", 1e-2, 1e3),
-            logarithmic("lifted", 1e-4, 1.0),
-            logarithmic("shoulder", 0.03, 10.0),
-            logarithmic("elbow", 0.03, 3.0),
-            logarithmic("neck", 0.03, 10.0),
-            logarithmic("waist", 0.03, 10.0),
-            logarithmic("hip", 0.03, 10.0),
-            logarithmic("knee", 0.03, 10.0),
-            linear("com_ahead", -0.05, 0.03),
-            linear("margin", 0.0, 0.02),
-            linear("pose.knee", -0.35, 0.0),
-            linear("pose.shoulder", -0.2, 0.3),
-            linear("pose.elbow", 0.0, 0.6),
-        ]
-    }
-
-    fn slot(&mut self, name: &str) -> &mut f64 {
-        let g = &mut self.gains;
-        match name {
-            "kl" => &mut g.kl,
-            "dl" => &mut g.dl,
-            "kl_height" => &mut g.kl_height,
-            "dh" => &mut g.dh,
-            "kt" => &mut g.kt,
-            "dt" => &mut g.dt,
-            "angular" => &mut g.angular,
-            "tracking" => &mut g.tracking,
-            "root" => &mut g.root,
-            "tilted" => &mut g.tilted,
-            "lifted" => &mut g.lifted,
-            "margin" => &mut g.margin,
-            "com_ahead" => &mut self.com_ahead,
-            other => match other.strip_prefix("pose.") {
-                Some(joint) => self.pose.entry(joint.to_owned()).or_insert(0.0),
-                None => self.joint_weights.entry(other.to_owned()).or_insert(1.0),
-            },
-        }
-    }
-
-    fn settle(&mut self) {
-        share_bend(&mut self.pose);
-        let g = &mut self.gains;
-        g.dl_height = 2.0 * g.kl_height.sqrt();
-    }
+/// The dimensions about a spec: each reaches at least to the spec's own number.
+fn around<T: Tunable>(base: &T, model: &Model) -> Vec<Dimension> {
+    let mut spec = base.clone();
+    let all = base.dimensions(model).into_iter();
+    all.map(|d| {
+        let value = *spec.slot(&d.name);
+        d.including(value)
+    })
+    .collect()
 }
 
-impl Tunable for StanceSpec {
-    const KIND: &'static str = "stance";
-
-    fn dimensions(&self, _: &Model) -> Vec<Dimension> {
-        vec![
-            linear("com_ahead", -0.05, 0.03),
-            logarithmic("position_gain", 0.2, 10.0),
-            logarithmic("velocity_gain", 0.5, 8.0),
-            logarithmic("bend_gain", 0.1, 30.0),
-            linear("bend_margin", -0.02, 0.1),
-            logarithmic("stiffness", 0.3, 2.5),
-            linear("pose.knee", -0.2, 0.0),
-            linear("pose.elbow", 0.0, 0.4),
-        ]
-    }
-
-    fn slot(&mut self, name: &str) -> &mut f64 {
-        match name {
-            "com_ahead" => &mut self.com_ahead,
-            "position_gain" => &mut self.position_gain,
-            "velocity_gain" => &mut self.velocity_gain,
-            "bend_gain" => &mut self.bend_gain,
-            "bend_margin" => &mut self.bend_margin,
-            "stiffness" => &mut self.stiffness,
-            other => {
-                let joint = other.strip_prefix("pose.").unwrap_or(other);
-                self.pose.entry(joint.to_owned()).or_insert(0.0)
-            }
-        }
-    }
-
-    fn settle(&mut self) {
-        share_bend(&mut self.pose);
-    }
-}
-
-impl Tunable for FallSpec {
-    const KIND: &'static str = "fall";
-
-    fn dimensions(&self, _: &Model) -> Vec<Dimension> {
-        vec![
-            linear("forward.reach.waist", -0.6, 0.4),
-            linear("forward.reach.shoulder", 0.6, 2.2),
-            linear("forward.reach.elbow", 0.1, 1.2),
-            linear("forward.reach.hip", -0.2, 1.2),
-            linear("forward.reach.knee", -1.6, -0.1),
-            linear("forward.give.waist", -0.6, 0.4),
-            linear("forward.give.shoulder", 0.6, 2.2),
-            linear("forward.give.elbow", 0.4, 2.2),
-            linear("forward.give.hip", -0.2, 1.2),
-            linear("forward.give.knee", -1.6, -0.1),
-            logarithmic("forward.reach_stiffness", 0.2, 1.2),
-            logarithmic("forward.give_stiffness", 0.1, 1.0),
-            logarithmic("forward.ramp", 0.08, 0.5),
-            linear("backward.reach.waist", -1.2, 0.0),
-            linear("backward.reach.shoulder", -1.0, 0.6),
-            linear("backward.reach.elbow", 0.1, 1.5),
-            linear("backward.reach.hip", 0.2, 2.0),
-            linear("backward.reach.knee", -2.4, -0.3),
-            linear("backward.reach.ankle", -0.4, 0.5),
-            linear("backward.give.waist", -1.2, 0.0),
-            linear("backward.give.shoulder", -1.0, 1.0),
-            linear("backward.give.elbow", 0.1, 2.2),
-            linear("backward.give.hip", 0.2, 2.0),
-            linear("backward.give.knee", -2.4, -0.3),
-            logarithmic("backward.reach_stiffness", 0.2, 1.2),
-            logarithmic("backward.give_stiffness", 0.1, 1.0),
-            logarithmic("backward.ramp", 0.08, 0.6),
-        ]
-    }
-
-    fn slot(&mut self, name: &str) -> &mut f64 {
-        let (way, rest) = match name.strip_prefix("forward.") {
-            Some(rest) => (&mut self.forward, rest),
-            None => (
-                &mut self.backward,
-                name.strip_prefix("backward.").unwrap_or(name),
-            ),
-        };
-        match rest.split_once('.') {
-            Some(("reach", joint)) => way.reach.entry(joint.to_owned()).or_insert(0.0),
-            Some((_, joint)) => way.give.entry(joint.to_owned()).or_insert(0.0),
-            None => match rest {
-                "reach_stiffness" => &mut way.reach_stiffness,
-                "give_stiffness" => &mut way.give_stiffness,
-                _ => &mut way.ramp,
-            },
-        }
-    }
-}
-
-/// The spec at a point of the unit cube.
+/// The spec at a point of the unit cube about `base`.
 #[must_use]
 pub fn at<T: Tunable>(base: &T, model: &Model, point: &[f64]) -> T {
     let mut spec = base.clone();
-    for (d, u) in base.dimensions(model).iter().zip(point) {
+    for (d, u) in around(base, model).iter().zip(point) {
         // Five digits are more than the search can tell apart, and read well.
         let value = d.value(*u);
         let digits = (4 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 9) as usize;
@@ -206,11 +67,11 @@ pub fn at<T: Tunable>(base: &T, model: &Model, point: &[f64]) -> T {
     spec
 }
 
-/// The point of the unit cube that a spec stands at.
+/// The point of the unit cube about itself that a spec stands at.
 #[must_use]
 pub fn point_of<T: Tunable>(spec: &T, model: &Model) -> Vec<f64> {
     let mut spec = spec.clone();
-    spec.dimensions(model)
+    around(&spec, model)
         .iter()
         .map(|d| d.unit(*spec.slot(&d.name)))
         .collect()
@@ -222,11 +83,19 @@ pub fn point_of<T: Tunable>(spec: &T, model: &Model) -> Vec<f64> {
 /// Bad syntax, or another kind of controller.
 pub fn spec_of<T: Tunable>(source: &Source) -> Result<(Contract, T)> {
     let file: ControllerFile = source.parse()?;
+    let spec = spec_in(&source.origin, &file)?;
+    Ok((file.contract, spec))
+}
+
+/// The spec of a controller file that is parsed; `origin` is what errors call it.
+///
+/// # Errors
+/// As [`spec_of`].
+pub fn spec_in<T: Tunable>(origin: &str, file: &ControllerFile) -> Result<T> {
     if file.kind != T::KIND {
         return Err(Error::unknown("kind", &file.kind, [T::KIND]));
     }
-    let inner = Source::new(source.origin.clone(), file.spec.get_ron());
-    Ok((file.contract, inner.parse()?))
+    Source::new(origin, file.spec.get_ron()).parse()
 }
 
 #[derive(Serialize)]
@@ -236,15 +105,28 @@ struct WholeFile<'a, T> {
     spec: &'a T,
 }
 
-/// A controller file in text.
-#[must_use]
-pub fn text_of<T: Tunable>(contract: &Contract, spec: &T, header: &str) -> String {
-    let file = WholeFile {
+fn whole<'a, T: Tunable>(contract: &'a Contract, spec: &'a T) -> WholeFile<'a, T> {
+    WholeFile {
         kind: T::KIND,
         contract,
         spec,
-    };
-    let pretty = ron::ser::PrettyConfig::new().struct_names(false).depth_limit(3);
+    }
+}
+
+/// A controller file in one line.
+#[must_use]
+pub fn line_of<T: Tunable>(contract: &Contract, spec: &T) -> String {
+    let file = whole(contract, spec);
+    options().to_string(&file).unwrap_or_default()
+}
+
+/// A controller file in text, with comments before it.
+#[must_use]
+pub fn text_of<T: Tunable>(contract: &Contract, spec: &T, header: &str) -> String {
+    let file = whole(contract, spec);
+    let pretty = ron::ser::PrettyConfig::new()
+        .struct_names(false)
+        .depth_limit(3);
     let body = options()
         .to_string_pretty(&file, pretty)
         .unwrap_or_default();
@@ -292,6 +174,7 @@ pub fn search<T: Tunable>(
     let best = minimise(&start, search, cost, |evaluations, best: &Best| {
         let text = |header: &str| text_of(&contract, &at(&base, &model, &best.point), header);
         watch(evaluations, best.cost, &text);
+        ControlFlow::Continue(())
     });
     Ok(best.cost)
 }
@@ -300,6 +183,8 @@ pub fn search<T: Tunable>(
 mod tests {
     use super::*;
     use crate::{falling, standing};
+    use aplomb_controllers::balance::BalanceSpec;
+    use aplomb_controllers::fall::FallSpec;
 
     fn shipped(name: &str) -> Source {
         aplomb_controllers::registry().file(name).unwrap()

@@ -24,6 +24,16 @@ impl Worlds {
         mass: [0.95, 1.05],
     };
 
+    /// One friction and one torque, for the character's own masses.
+    #[must_use]
+    pub fn single(friction: f64, torque: f64) -> Self {
+        Self {
+            friction: [friction; 2],
+            torque: [torque; 2],
+            mass: [1.0; 2],
+        }
+    }
+
     /// One world.
     pub fn draw(&self, rng: &mut impl Rng) -> Settings {
         let mut pick = |[low, high]: [f64; 2]| low + (high - low) * rng.gen_range(0.0..=1.0);

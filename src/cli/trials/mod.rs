@@ -13,11 +13,10 @@ mod tally;
 
 use std::io::Write;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Result, anyhow, bail, ensure};
 use clap::Args;
 use rayon::prelude::*;
 
@@ -25,7 +24,7 @@ use super::json::RunJson;
 use super::output::{check_writable, message, write_recording};
 use super::scene::{SceneArgs, record};
 use super::values::{STRONGEST, duration, number, whole};
-use super::{Verdict, progress, timeline};
+use super::{Verdict, progress, timeline, work};
 use plan::{Plan, Trial};
 use report::Report;
 use tally::Tally;
@@ -102,7 +101,7 @@ impl TrialsArgs {
         if let Some(index) = self.only {
             return self.one(&plan, index, out);
         }
-        let stop = stop_on_interrupt()?;
+        let stop = work::stop_on_interrupt()?;
         let begun = Instant::now();
         let tally = self.all(&plan, &stop)?;
         let wall_s = begun.elapsed().as_secs_f64();
@@ -152,9 +151,7 @@ impl TrialsArgs {
     }
 
     fn all(&self, plan: &Plan, stop: &AtomicBool) -> Result<Tally> {
-        let jobs = self.jobs.map_or(0, |j| j as usize);
-        let threads = rayon::ThreadPoolBuilder::new().num_threads(jobs);
-        let threads = threads.build().context("cannot start the threads")?;
+        let threads = work::threads(self.jobs)?;
         let bar = progress::bar(self.count, "trials");
         let take = |mut tally: Tally, index: u64| {
             if let Some(trial) = plan.run(index, stop)? {
@@ -215,17 +212,4 @@ impl TrialsArgs {
         out.write_all(&told)?;
         Ok(Verdict::Done)
     }
-}
-
-/// A flag that the first Ctrl-C raises; the second ends the program at once.
-fn stop_on_interrupt() -> Result<Arc<AtomicBool>> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&stop);
-    ctrlc::set_handler(move || {
-        if raised.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    })
-    .context("cannot watch for Ctrl-C")?;
-    Ok(stop)
 }

@@ -47,7 +47,11 @@ impl Tunable for StepSpec {
         let g = &mut self.gains;
         match (group, field) {
             ("forward" | "backward", _) => {
-                let p = if group == "forward" { &mut self.forward } else { &mut self.backward };
+                let p = if group == "forward" {
+                    &mut self.forward
+                } else {
+                    &mut self.backward
+                };
                 match field {
                     "swing_time" => &mut p.swing_time,
                     "reach" => &mut p.reach,

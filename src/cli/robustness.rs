@@ -1,0 +1,243 @@
+//! `aplomb robustness`: each skill alone in a grid of worlds.
+//!
+//! arguments → skills → starts and rollouts in every world → table. The number of threads changes
+//! nothing.
+
+use std::io::Write;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use anyhow::Result;
+use aplomb_training::exercise::{Drill, Exercise, Task};
+use aplomb_training::rising::Goal;
+use aplomb_training::skill::Skill;
+use aplomb_training::worlds::Worlds;
+use clap::Args;
+use serde::Serialize;
+
+use super::output::message;
+use super::scene::CastArgs;
+use super::train::skills;
+use super::values::whole;
+use super::{Verdict, progress, work};
+
+/// Friction coefficients of the ground: the rows.
+const FRICTIONS: [f64; 4] = [0.6, 0.8, 1.0, 1.2];
+/// Torque limits, relative to the character's: the columns.
+const TORQUES: [f64; 3] = [0.85, 1.0, 1.15];
+
+/// Measure each skill alone over friction and strength
+///
+/// For every friction 0.6, 0.8, 1, 1.2 and torque 0.85, 1, 1.15 (relative to the character's): from
+/// how many starts a controller, followed by the rest of the repertoire, comes to its goal without
+/// any failure. It is taken from where the repertoire hands over to it, half of the times in a heap
+/// on the floor, half in a fall after a push. A step that takes over from standing is pushed on the
+/// trunk instead, by 40 to 75 N·s either way, and has to stand again within 6 s.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  aplomb robustness
+  aplomb robustness rise_supine rise_prone --starts 50
+  aplomb robustness --repertoire mine.ron --json")]
+pub(super) struct RobustnessArgs {
+    /// Names of controllers of the repertoire; all that have a goal if left out
+    controllers: Vec<String>,
+    #[command(flatten)]
+    cast: CastArgs,
+    /// Number of starts in every world
+    #[arg(long, value_name = "N", default_value = "200",
+          value_parser = whole(1, 10_000), allow_negative_numbers = true)]
+    starts: u64,
+    /// Fixes everything random
+    #[arg(long, value_name = "N", default_value = "0",
+          value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
+    seed: u64,
+    /// Number of threads; changes no result [default: one a core]
+    #[arg(long, value_name = "N", value_parser = whole(1, 256), allow_negative_numbers = true)]
+    jobs: Option<u64>,
+    /// Prints one JSON value instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+/// One world.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Cell {
+    friction: f64,
+    torque: f64,
+    /// As asked for, or fewer where the repertoire seldom hands over to the controller.
+    starts: usize,
+    reached: usize,
+    /// None without starts.
+    fraction: Option<f64>,
+}
+
+/// One controller.
+#[derive(Debug, Serialize)]
+struct Row {
+    controller: String,
+    kind: String,
+    goal: String,
+    cells: Vec<Cell>,
+    /// The cell with the smallest fraction.
+    least: Option<Cell>,
+}
+
+/// Names are a contract with other people's scripts.
+#[derive(Debug, Serialize)]
+struct Report {
+    starts: u64,
+    seed: u64,
+    wall_s: f64,
+    interrupted: bool,
+    controllers: Vec<Row>,
+}
+
+impl RobustnessArgs {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        let all = skills(&self.cast)?;
+        let chosen = self.choose(&all)?;
+        let stop = work::stop_on_interrupt()?;
+        let begun = Instant::now();
+        let rows = work::threads(self.jobs)?.install(|| self.measure(&chosen, &stop))?;
+        let interrupted = stop.load(Ordering::Relaxed);
+        if interrupted {
+            message(format_args!("interrupted: the table is not complete"));
+        }
+        let report = Report {
+            starts: self.starts,
+            seed: self.seed,
+            wall_s: begun.elapsed().as_secs_f64(),
+            interrupted,
+            controllers: rows,
+        };
+        if self.json {
+            serde_json::to_writer(&mut *out, &report)?;
+            writeln!(out)?;
+        } else {
+            print(out, &report)?;
+        }
+        Ok(Verdict::Done)
+    }
+
+    /// The controllers that were asked for, or all that there is something to measure of.
+    fn choose<'a>(&self, all: &'a [Skill]) -> Result<Vec<(&'a Skill, Task)>> {
+        let task = |skill: &'a Skill| Ok((skill, Task::of(&skill.contract, &skill.model)?));
+        if self.controllers.is_empty() {
+            return Ok(all.iter().filter_map(|s| task(s).ok()).collect());
+        }
+        let named = |name: &String| task(Skill::find(all, name)?);
+        self.controllers.iter().map(named).collect()
+    }
+
+    /// A row for each, without what was not finished.
+    fn measure(&self, chosen: &[(&Skill, Task)], stop: &AtomicBool) -> Result<Vec<Row>> {
+        let cells = (FRICTIONS.len() * TORQUES.len()) as u64;
+        let bar = progress::bar(chosen.len() as u64 * cells * self.starts, "starts");
+        let mut rows = Vec::with_capacity(chosen.len());
+        for (skill, task) in chosen {
+            let mut row = Row {
+                controller: skill.name().to_owned(),
+                kind: skill.kind().to_owned(),
+                goal: goal(*task),
+                cells: Vec::with_capacity(cells as usize),
+                least: None,
+            };
+            for (friction, torque) in grid() {
+                bar.set_message(format!("; {}", skill.name()));
+                let before = (rows.len() as u64 * cells + row.cells.len() as u64) * self.starts;
+                let drill = Drill::cell(
+                    Worlds::single(friction, torque),
+                    self.starts as usize,
+                    self.seed,
+                );
+                let exercise = Exercise::new(skill, drill, |found| {
+                    bar.set_position(before + found as u64);
+                    if stop.load(Ordering::Relaxed) {
+                        ControlFlow::Break(())
+                    } else {
+                        ControlFlow::Continue(())
+                    }
+                })?;
+                if stop.load(Ordering::Relaxed) {
+                    break;
+                }
+                let (starts, reached) = (exercise.starts(), exercise.judge(&skill.mind).reached);
+                bar.set_position(before + self.starts);
+                row.cells.push(Cell {
+                    friction,
+                    torque,
+                    starts,
+                    reached,
+                    fraction: (starts > 0).then(|| reached as f64 / starts as f64),
+                });
+            }
+            row.least = least(&row.cells);
+            rows.extend((!row.cells.is_empty()).then_some(row));
+            if stop.load(Ordering::Relaxed) {
+                break;
+            }
+        }
+        bar.finish_and_clear();
+        Ok(rows)
+    }
+}
+
+fn grid() -> impl Iterator<Item = (f64, f64)> {
+    FRICTIONS
+        .into_iter()
+        .flat_map(|friction| TORQUES.into_iter().map(move |torque| (friction, torque)))
+}
+
+/// The first of those with the smallest fraction.
+fn least(cells: &[Cell]) -> Option<Cell> {
+    let known = cells.iter().filter_map(|c| Some((c.fraction?, *c)));
+    let least = known.min_by(|a, b| a.0.total_cmp(&b.0));
+    least.map(|(_, cell)| cell)
+}
+
+fn goal(task: Task) -> String {
+    match task {
+        Task::Push => "standing after a push".to_owned(),
+        Task::Rise(Goal::Stand) => "standing".to_owned(),
+        Task::Rise(Goal::Reach(_)) => "its post-condition".to_owned(),
+    }
+}
+
+fn print(out: &mut dyn Write, report: &Report) -> std::io::Result<()> {
+    let Report { starts, seed, .. } = report;
+    writeln!(out, "{starts} starts in every world, seed {seed}")?;
+    for row in &report.controllers {
+        writeln!(out, "\n{}, to {}", row.controller, row.goal)?;
+        write!(out, "friction")?;
+        for torque in TORQUES {
+            write!(out, "{:>18}", format!("torque {torque:.2}"))?;
+        }
+        for line in row.cells.chunks(TORQUES.len()) {
+            write!(out, "\n{:8.1}", line[0].friction)?;
+            for cell in line {
+                write!(out, "{:>18}", told(cell))?;
+            }
+        }
+        match row.least {
+            Some(cell) => writeln!(
+                out,
+                "\nleast: {} of {} at friction {}, torque {}",
+                told(&cell),
+                cell.starts,
+                cell.friction,
+                cell.torque
+            )?,
+            None => writeln!(out, "\nthe repertoire never hands over to it")?,
+        }
+    }
+    writeln!(out, "\n{:.1} s", report.wall_s)
+}
+
+/// `97.5 % (195)`.
+fn told(cell: &Cell) -> String {
+    cell.fraction.map_or("no starts".to_owned(), |f| {
+        format!("{:.1} % ({})", 100.0 * f, cell.reached)
+    })
+}

@@ -1,0 +1,37 @@
+//! `aplomb train`: searches and training, one file each.
+
+mod poses;
+
+use std::io::Write;
+
+use anyhow::Result;
+use aplomb::framework::model::Model;
+use aplomb_training::skill::Skill;
+use clap::Subcommand;
+
+use super::Verdict;
+use super::scene::CastArgs;
+
+/// Optimise controllers
+#[derive(Debug, Subcommand)]
+pub(super) enum TrainCommand {
+    Poses(poses::PosesArgs),
+}
+
+impl TrainCommand {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        match self {
+            Self::Poses(args) => args.run(out),
+        }
+    }
+}
+
+/// The controllers of the repertoire that was asked for.
+pub(super) fn skills(cast: &CastArgs) -> Result<Vec<Skill>> {
+    let registry = aplomb::controllers::registry();
+    let scenario = cast.apply(None, 1.0, &registry)?;
+    let role = &scenario.characters[0];
+    let model = Model::load(&role.character)?;
+    let repertoire = role.repertoire.as_deref().unwrap_or(&model.name);
+    Ok(Skill::all(repertoire, &registry, &model)?)
+}

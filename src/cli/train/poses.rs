@@ -1,0 +1,228 @@
+//! `aplomb train poses`: CMA-ES over the numbers of a controller.
+//!
+//! arguments → skill → search → controller file and journal. The number of threads changes nothing.
+
+use std::io::{IsTerminal, Write, stderr};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use anyhow::{Context, Result, anyhow};
+use aplomb_training::exercise::Score;
+use aplomb_training::improve::{self, Found, Plan, Stage};
+use aplomb_training::journal;
+use aplomb_training::skill::Skill;
+use clap::Args;
+use indicatif::ProgressBar;
+use serde::Serialize;
+
+use super::skills;
+use crate::cli::output::{check_writable, message};
+use crate::cli::scene::CastArgs;
+use crate::cli::values::{number, whole};
+use crate::cli::{Verdict, progress, work};
+
+/// Search for better numbers of a controller: angles, durations, gains
+///
+/// CMA-ES over many rollouts in random worlds (friction 0.6 to 1.2, torque 0.85 to 1.15, mass 0.95
+/// to 1.05). A controller of kind pose or step is taken from where its repertoire hands over to it,
+/// half of the times in a heap on the floor, half in a fall after a push, and has to come to its goal
+/// without any failure; a step that takes over from standing is pushed, by 40 to 90 N·s either way.
+///
+/// The best controller so far is always in the output; beside it is a journal with which --resume
+/// goes on, also after the program was killed, to what it would have found. Ctrl-C ends the search
+/// after the running generation.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  aplomb train poses rise_supine --evaluations 2000 --starts 40
+  aplomb train poses rise_supine --evaluations 4000 --starts 40 --resume
+  aplomb train poses tuck --repertoire mine.ron --out better.ron --json")]
+pub(in crate::cli) struct PosesArgs {
+    /// Name of a controller of the repertoire, of kind pose or step
+    controller: String,
+    #[command(flatten)]
+    cast: CastArgs,
+    /// Ends with the generation that reaches N evaluations, each of all starts
+    #[arg(long, value_name = "N", default_value = "1000",
+          value_parser = whole(1, 10_000_000), allow_negative_numbers = true)]
+    evaluations: u64,
+    /// Number of starts
+    #[arg(long, value_name = "N", default_value = "32",
+          value_parser = whole(1, 10_000), allow_negative_numbers = true)]
+    starts: u64,
+    /// Fixes everything random
+    #[arg(long, value_name = "N", default_value = "0",
+          value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
+    seed: u64,
+    /// Width of the search at its beginning, relative to the ranges of the numbers
+    #[arg(long, value_name = "S", default_value = "0.1",
+          value_parser = number(0.001, 1.0, "of the ranges"), allow_negative_numbers = true)]
+    sigma: f64,
+    /// Number of threads; changes no result [default: one a core]
+    #[arg(long, value_name = "N", value_parser = whole(1, 256), allow_negative_numbers = true)]
+    jobs: Option<u64>,
+    /// The controller file that is written [default: CONTROLLER.ron]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Goes on with the search whose journal is beside the output
+    #[arg(long)]
+    resume: bool,
+    /// Prints one JSON value instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+/// Names are a contract with other people's scripts.
+#[derive(Debug, Serialize)]
+struct Report<'a> {
+    controller: &'a str,
+    kind: &'a str,
+    seed: u64,
+    evaluations: usize,
+    starts: usize,
+    reached: usize,
+    cost: f64,
+    start_reached: usize,
+    start_cost: f64,
+    wall_s: f64,
+    interrupted: bool,
+    out: String,
+}
+
+impl PosesArgs {
+    pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        let skills = skills(&self.cast)?;
+        let skill = Skill::find(&skills, &self.controller)?;
+        improve::check(skill)?;
+        let file = self.out.clone();
+        let file = file.unwrap_or_else(|| PathBuf::from(format!("{}.ron", self.controller)));
+        check_writable(&file)?;
+        check_writable(&journal::beside(&file))?;
+        let stop = work::stop_on_interrupt()?;
+        let begun = Instant::now();
+        let threads = work::threads(self.jobs)?;
+        let found = threads.install(|| self.search(skill, &file, &stop))?;
+        let interrupted = stop.load(Ordering::Relaxed);
+        if interrupted {
+            let n = found.evaluations;
+            message(format_args!(
+                "interrupted after {n} evaluations; --resume goes on"
+            ));
+        }
+        let report = Report {
+            controller: skill.name(),
+            kind: skill.kind(),
+            seed: self.seed,
+            evaluations: found.evaluations,
+            starts: found.starts,
+            reached: found.best.reached,
+            cost: found.best.cost,
+            start_reached: found.start.reached,
+            start_cost: found.start.cost,
+            wall_s: begun.elapsed().as_secs_f64(),
+            interrupted,
+            out: file.display().to_string(),
+        };
+        if self.json {
+            serde_json::to_writer(&mut *out, &report)?;
+            writeln!(out)?;
+        } else {
+            print(out, &report)?;
+        }
+        Ok(Verdict::Done)
+    }
+
+    fn search(&self, skill: &Skill, file: &Path, stop: &AtomicBool) -> Result<Found> {
+        let plan = Plan {
+            evaluations: self.evaluations as usize,
+            starts: self.starts as usize,
+            seed: self.seed,
+            sigma: self.sigma,
+            out: file,
+            resume: self.resume,
+        };
+        let mut bars = Bars::new(self);
+        let found = improve::improve(skill, plan, |stage| {
+            bars.show(stage);
+            if stop.load(Ordering::Relaxed) {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        bars.bar.finish_and_clear();
+        let found = if self.resume {
+            found.context("--resume")?
+        } else {
+            found?
+        };
+        found.ok_or_else(|| anyhow!("interrupted before the first evaluation: nothing was found"))
+    }
+}
+
+/// A bar for the starts, then one for the evaluations; where stderr is no terminal, a line for every
+/// improvement instead.
+struct Bars {
+    bar: ProgressBar,
+    evaluations: u64,
+    starts: u64,
+    searching: bool,
+    told: Option<Score>,
+}
+
+impl Bars {
+    fn new(args: &PosesArgs) -> Self {
+        Self {
+            bar: progress::bar(args.starts, "starts"),
+            evaluations: args.evaluations,
+            starts: args.starts,
+            searching: false,
+            told: None,
+        }
+    }
+
+    fn show(&mut self, stage: Stage) {
+        let found = match stage {
+            Stage::Gathering(found) => return self.bar.set_position(found as u64),
+            Stage::Searching(found) => found,
+        };
+        let (n, of) = (found.evaluations, found.starts);
+        let Score { cost, reached } = found.best;
+        if !self.searching {
+            self.searching = true;
+            self.bar.finish_and_clear();
+            if of as u64 != self.starts {
+                let asked = self.starts;
+                message(format_args!(
+                    "only {of} of {asked} starts: the repertoire seldom hands over to the controller"
+                ));
+            }
+            self.bar = progress::bar(self.evaluations, "evaluations");
+        }
+        self.bar.set_position((n as u64).min(self.evaluations));
+        let best = format!("cost {cost:.4}, {reached} of {of} reached");
+        if self.told != Some(found.best) && !stderr().is_terminal() {
+            message(format_args!("{n} evaluations: {best}"));
+        }
+        self.told = Some(found.best);
+        self.bar.set_message(format!("; {best}"));
+    }
+}
+
+fn print(out: &mut dyn Write, r: &Report<'_>) -> std::io::Result<()> {
+    let (n, starts) = (r.evaluations, r.starts);
+    let Report {
+        controller, seed, ..
+    } = r;
+    writeln!(
+        out,
+        "{controller}: {n} evaluations over {starts} starts, seed {seed}, {:.1} s",
+        r.wall_s
+    )?;
+    let line = |reached, cost| format!("cost {cost:.4}, {reached} of {starts} starts reached");
+    writeln!(out, "began with  {}", line(r.start_reached, r.start_cost))?;
+    writeln!(out, "came to     {}", line(r.reached, r.cost))?;
+    writeln!(out, "written to {}", r.out)
+}
