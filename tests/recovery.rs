@@ -17,7 +17,12 @@ fn every_scenario_of_recovery_ends_as_it_expects() {
         assert!(!scenario.expect.is_empty(), "{}", file.display());
         let mut run = Simulation::new(&scenario, &registry).unwrap();
         run.run(scenario.duration);
-        assert_eq!(run.disappointment(&scenario.expect), None, "{}", file.display());
+        assert_eq!(
+            run.disappointment(&scenario.expect),
+            None,
+            "{}",
+            file.display()
+        );
     }
 }
 

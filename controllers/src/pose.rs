@@ -304,7 +304,11 @@ impl Controller for PoseController {
         if self.ended.is_some() && kept.is_some_and(|k| k >= contract.hold) {
             return Progress::Succeeded;
         }
-        if self.ended.is_some_and(|e| now.time - e > contract.hold + GRACE) && kept.is_none() {
+        if self
+            .ended
+            .is_some_and(|e| now.time - e > contract.hold + GRACE)
+            && kept.is_none()
+        {
             return Progress::Failed("its last pose did not bring it about".to_owned());
         }
         if elapsed > contract.patience {

@@ -14,12 +14,12 @@
 
 use std::sync::Arc;
 
+use aplomb_framework::Result;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::controller::Controller;
 use aplomb_framework::model::Model;
 use aplomb_framework::registry::Spec;
 use aplomb_framework::sensors::Sensors;
-use aplomb_framework::Result;
 use serde::{Deserialize, Serialize};
 
 use crate::balance::com_height;
@@ -145,11 +145,23 @@ impl Spec for StepSpec {
         ] {
             bounded(&place, field, value, low, high)?;
         }
-        bounded(&place, "feet of the character", model.feet.len() as f64, 2.0, 2.0)?;
+        bounded(
+            &place,
+            "feet of the character",
+            model.feet.len() as f64,
+            2.0,
+            2.0,
+        )?;
         let mut pose = vec![0.0; model.joint_count()];
         overlay(model, &self.pose, "pose", [-7.0, 7.0], &mut pose)?;
         let mut weights = vec![1.0; model.joint_count()];
-        overlay(model, &self.joint_weights, "joint_weights", [1e-3, 1e3], &mut weights)?;
+        overlay(
+            model,
+            &self.joint_weights,
+            "joint_weights",
+            [1e-3, 1e3],
+            &mut weights,
+        )?;
         let height = com_height(model, &pose);
         Ok(Box::new(Step {
             momentum: Momentum::new(model, Formulation::Inequality, self.gains.clone(), weights),
@@ -216,11 +228,16 @@ impl Step {
 
     /// Where the sole's middle of a swinging foot is to land, world x, m.
     fn landing(&self, now: &Sensors, foot: usize, forward: bool) -> f64 {
-        let p = if forward { &self.spec.forward } else { &self.spec.backward };
+        let p = if forward {
+            &self.spec.forward
+        } else {
+            &self.spec.backward
+        };
         let [rear, front] = Self::ends(now, 1 - foot);
         let edge = if forward { front } else { rear };
         let left = (p.swing_time - (now.time - self.since)).max(0.0);
-        let run = ((now.capture_point - edge) * (now.pendulum_rate() * left).exp()).clamp(-2.0, 2.0);
+        let run =
+            ((now.capture_point - edge) * (now.pendulum_rate() * left).exp()).clamp(-2.0, 2.0);
         let sign = if forward { 1.0 } else { -1.0 };
         let stance = Self::sole(now, 1 - foot)[0];
         let x = edge + p.reach * run + sign * p.beyond;
@@ -231,7 +248,11 @@ impl Step {
     fn swing(&self, now: &Sensors, foot: usize, to: f64, time: f64, lift: f64) -> Swing {
         let s = (now.time - self.since) / time;
         let eased = smoothstep(s);
-        let rate = if (0.0..1.0).contains(&s) { 6.0 * s * (1.0 - s) / time } else { 0.0 };
+        let rate = if (0.0..1.0).contains(&s) {
+            6.0 * s * (1.0 - s) / time
+        } else {
+            0.0
+        };
         let from = self.from;
         // Up and down again, and on down until the ground is met.
         let start = (from[1] - now.ground).max(0.0) * (1.0 - eased);
@@ -255,11 +276,16 @@ impl Step {
     fn advance(&mut self, now: &Sensors) {
         let elapsed = now.time - self.since;
         let strayed = now.base_of_support.is_some_and(|[rear, front]| {
-            now.capture_point > front + self.spec.margin || now.capture_point < rear - self.spec.margin
+            now.capture_point > front + self.spec.margin
+                || now.capture_point < rear - self.spec.margin
         });
         match self.phase {
             Phase::Swing { foot, forward } => {
-                let p = if forward { &self.spec.forward } else { &self.spec.backward };
+                let p = if forward {
+                    &self.spec.forward
+                } else {
+                    &self.spec.backward
+                };
                 let landed = now.feet[foot].touching() && elapsed > 0.6 * p.swing_time;
                 if landed {
                     self.begin(now, Phase::Catch { over: foot });
@@ -309,10 +335,13 @@ impl Step {
         let g = &self.spec.gains;
         let c = now.com[0];
         let (rear, front) = match self.phase {
-            Phase::Swing { foot, .. } | Phase::Close { foot, .. } => Self::ends(now, 1 - foot).into(),
-            Phase::Catch { .. } | Phase::Settle => {
-                now.base_of_support.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]).into()
+            Phase::Swing { foot, .. } | Phase::Close { foot, .. } => {
+                Self::ends(now, 1 - foot).into()
             }
+            Phase::Catch { .. } | Phase::Settle => now
+                .base_of_support
+                .unwrap_or([f64::NEG_INFINITY, f64::INFINITY])
+                .into(),
         };
         let (rear, front) = (rear - self.spec.bend, front + self.spec.bend);
         let wish = g.kl * (self.over - c) - g.dl * now.com_velocity[0];
@@ -327,7 +356,11 @@ impl Step {
         let [a, b] = [Self::sole(now, 0)[0], Self::sole(now, 1)[0]];
         let (goal, swing, lean) = match self.phase {
             Phase::Swing { foot, forward } => {
-                let p = if forward { &self.spec.forward } else { &self.spec.backward };
+                let p = if forward {
+                    &self.spec.forward
+                } else {
+                    &self.spec.backward
+                };
                 let to = self.landing(now, foot, forward);
                 let swing = self.swing(now, foot, to, p.swing_time, p.lift);
                 (Self::sole(now, 1 - foot)[0], Some(swing), p.lean)
@@ -369,9 +402,9 @@ impl Controller for Step {
         self.over = now.com[0];
         self.reference.com = now.com;
         self.time = now.time;
-        let outside = now.base_of_support.is_none_or(|[rear, front]| {
-            now.capture_point > front || now.capture_point < rear
-        });
+        let outside = now
+            .base_of_support
+            .is_none_or(|[rear, front]| now.capture_point > front || now.capture_point < rear);
         if outside {
             self.begin_swing(now);
         } else {

@@ -146,9 +146,8 @@ impl Body {
                     if p.normal_up < SUPPORTING {
                         return;
                     }
-                    let at_knee = knee.is_some_and(|k| {
-                        (p.in_body[0] - k[0]).hypot(p.in_body[1] - k[1]) < KNEE
-                    });
+                    let at_knee = knee
+                        .is_some_and(|k| (p.in_body[0] - k[0]).hypot(p.in_body[1] - k[1]) < KNEE);
                     contact.knee = at_knee && (contact.knee || !contact.supported);
                     contact.supported = true;
                     lowest = lowest.min(p.at[1]);

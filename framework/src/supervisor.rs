@@ -72,7 +72,10 @@ impl Supervisor {
     /// [`Error::Unknown`] if there is none with its name; what makes a pool invalid.
     pub fn with_replaced(&self, controller: Box<dyn Controller>) -> Result<Self> {
         let name = &controller.contract().name;
-        let place = self.pool.iter().position(|m| m.controller.contract().name == *name);
+        let place = self
+            .pool
+            .iter()
+            .position(|m| m.controller.contract().name == *name);
         let Some(place) = place else {
             let known = self.controllers().map(|c| c.contract().name.as_str());
             return Err(Error::unknown("controller", name, known));

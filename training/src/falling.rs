@@ -53,7 +53,11 @@ pub fn pushes(low: f64, high: f64, count: usize) -> Vec<Push> {
 /// # Errors
 /// An invalid repertoire.
 pub fn land(text: &str, registry: &Registry, push: Push) -> Result<Landing> {
-    Ok(land_from(push.begin(text, registry)?, push.impulse > 0.0, SETTLED))
+    Ok(land_from(
+        push.begin(text, registry)?,
+        push.impulse > 0.0,
+        SETTLED,
+    ))
 }
 
 /// One fall from the moment of its push, forward or backward, watched for `longest` s.
