@@ -121,7 +121,7 @@ fn what_cannot_be_searched_is_refused_before_anything_is_written() {
     let told = told.unwrap_err().to_string();
     assert_eq!(
         told,
-        "rest: kind is rest; accepted: a controller of kind pose or step"
+        "rest: kind is rest; accepted: pose, step, fall"
     );
     assert!(!beside(&out).exists());
 }
