@@ -83,6 +83,9 @@ pub struct StepSpec {
 /// s after which catching aims twice as far as the foot.
 const LEANING: f64 = 0.5;
 
+/// m inside the ends of a sole that the capture point has to be for the other foot to leave.
+const INSIDE: f64 = 0.04;
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Phase {
     /// A foot moves to catch the fall.
@@ -275,9 +278,11 @@ impl Step {
     /// Moves from phase to phase.
     fn advance(&mut self, now: &Sensors) {
         let elapsed = now.time - self.since;
+        // Balanced over the very end of the support is no place to stay.
+        let part = (elapsed / LEANING).min(1.0);
+        let margin = self.spec.margin - part * (self.spec.margin + INSIDE);
         let strayed = now.base_of_support.is_some_and(|[rear, front]| {
-            now.capture_point > front + self.spec.margin
-                || now.capture_point < rear - self.spec.margin
+            now.capture_point > front + margin || now.capture_point < rear - margin
         });
         match self.phase {
             Phase::Swing { foot, forward } => {
@@ -299,7 +304,11 @@ impl Step {
                 let other = 1 - over;
                 let [a, b] = [Self::sole(now, over)[0], Self::sole(now, other)[0]];
                 let off = (now.capture_point - a).abs();
-                if off < self.spec.close_within && now.feet[over].touching() {
+                // The longer it takes, the less exactly: in the end the sole is enough.
+                let [rear, front] = Self::ends(now, over);
+                let enough = (0.5 * (front - rear) - INSIDE).max(self.spec.close_within);
+                let within = self.spec.close_within + part * (enough - self.spec.close_within);
+                if off < within && now.feet[over].touching() {
                     if (a - b).abs() < 0.02 && now.feet[other].touching() {
                         self.begin(now, Phase::Settle);
                     } else {
