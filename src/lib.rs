@@ -2,9 +2,9 @@
 //! fall, roll, rise and anticipate.
 //!
 //! This is the facade: [`framework`] (characters, world, sensors, contracts, supervisor),
-//! [`controllers`] (the motor skills), [`scenarios`] (the shipped ones) and [`mod@render`]
-//! (pictures of recorded runs). SI units and radians everywhere; frames and signs are those of
-//! [`framework`].
+//! [`controllers`] (the motor skills), [`training`] (optimisation of their numbers), [`scenarios`]
+//! (the shipped ones) and [`mod@render`] (pictures of recorded runs). SI units and radians
+//! everywhere; frames and signs are those of [`framework`].
 //!
 //! # The pipeline
 //!
@@ -31,6 +31,7 @@
 
 pub use aplomb_controllers as controllers;
 pub use aplomb_framework as framework;
+pub use aplomb_training as training;
 
 pub mod render;
 pub mod scenarios;

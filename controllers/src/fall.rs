@@ -6,8 +6,8 @@
 //! or seat touch, then lowering what is still propped up. Ends lying at rest.
 //!
 //! Fails to protect when something hits the character on the way down, or when the fall is faster
-//! than the arms. Poses and gains: the output of `tune` over pushes that nothing withstands, with
-//! seeds and costs in `skills/fall.ron`; the poses to lie in are by hand.
+//! than the arms. Poses and gains: the output of a search (`aplomb train poses fall`) over pushes that
+//! little withstands, with its seed and cost in `skills/fall.ron`; the poses to lie in are by hand.
 
 use std::sync::Arc;
 

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`balance`] | `balance` | stands by momentum control |
 //! | [`stance`] | `stance` | stands as an inverted pendulum |
+//! | [`step`] | `step` | puts a foot where the fall is caught, the other beside it; stands up from a crouch |
 //! | [`fall`] | `fall` | breaks falls with the hands, folds knees and trunk |
 //! | [`rest`] | `rest` | lets go; the fallback |
 //! | [`pose`] | `pose` | a state machine of target poses, as data |

@@ -9,10 +9,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use anyhow::Result;
-use aplomb_training::exercise::{Drill, Exercise, Task};
-use aplomb_training::rising::Goal;
-use aplomb_training::skill::Skill;
-use aplomb_training::worlds::Worlds;
+use aplomb::training::exercise::{Drill, Exercise, Task};
+use aplomb::training::rising::Goal;
+use aplomb::training::skill::Skill;
+use aplomb::training::worlds::Worlds;
 use clap::Args;
 use serde::Serialize;
 
@@ -33,7 +33,9 @@ const TORQUES: [f64; 3] = [0.85, 1.0, 1.15];
 /// how many starts a controller, followed by the rest of the repertoire, comes to its goal without
 /// any failure. It is taken from where the repertoire hands over to it, half of the times in a heap
 /// on the floor, half in a fall after a push. A step that takes over from standing is pushed on the
-/// trunk instead, by 40 to 75 N·s either way, and has to stand again within 6 s.
+/// trunk instead, by 40 to 75 N·s either way, and has to stand again within 6 s. A controller of kind
+/// fall is pushed on trunk, root and head in turn, by 60 to 260 N·s, and has to touch the ground with
+/// the hands, or backward with hands or seat, before head and trunk.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -123,7 +125,7 @@ impl RobustnessArgs {
 
     /// The controllers that were asked for, or all that there is something to measure of.
     fn choose<'a>(&self, all: &'a [Skill]) -> Result<Vec<(&'a Skill, Task)>> {
-        let task = |skill: &'a Skill| Ok((skill, Task::of(&skill.contract, &skill.model)?));
+        let task = |skill: &'a Skill| Ok((skill, Task::of(skill)?));
         if self.controllers.is_empty() {
             return Ok(all.iter().filter_map(|s| task(s).ok()).collect());
         }
@@ -200,6 +202,7 @@ fn least(cells: &[Cell]) -> Option<Cell> {
 fn goal(task: Task) -> String {
     match task {
         Task::Push => "standing after a push".to_owned(),
+        Task::Fall => "hands or seat first".to_owned(),
         Task::Rise(Goal::Stand) => "standing".to_owned(),
         Task::Rise(Goal::Reach(_)) => "its post-condition".to_owned(),
     }

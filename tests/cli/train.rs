@@ -125,6 +125,26 @@ fn jobs_and_interruptions_change_nothing() {
 }
 
 #[test]
+fn falls_are_searched_over_pushes() {
+    let folder = folder();
+    let search = "train poses fall --evaluations 1 --starts 2 --out fall.ron";
+    let search = told(folder.path(), search);
+    assert_eq!(
+        (&search["kind"], &search["starts"]),
+        (&"fall".into(), &2.into())
+    );
+    let repertoire = r#"(name: "mine", fallback: "rest", controllers: [
+        File("fall.ron"), File("skills/rest.ron"),
+    ])"#;
+    std::fs::write(folder.path().join("mine.ron"), repertoire).unwrap();
+    let pool = told(folder.path(), "controllers --repertoire mine.ron");
+    assert_eq!(pool[0]["kind"], "fall");
+    // Nothing is left to do.
+    let again = "train poses fall --evaluations 1 --starts 2 --out fall.ron --resume";
+    assert_eq!(told(folder.path(), again)["cost"], search["cost"]);
+}
+
+#[test]
 fn bad_usage() {
     let folder = folder();
     told(
@@ -138,7 +158,7 @@ fn bad_usage() {
         "train poses tcuk --repertoire r.ron".to_owned(),
         "train poses tuck".to_owned(),
         "train poses rest".to_owned(),
-        "train poses fall".to_owned(),
+        "train poses balance".to_owned(),
         "train poses bow".to_owned(),
         search("--evaluations 0"),
         search("--starts 0"),
@@ -153,7 +173,7 @@ fn bad_usage() {
         search("--out old.ron --resume --seed 3"),
         search("--out old.ron --resume --seed 3 --starts 2"),
         "robustness --starts 0".to_owned(),
-        "robustness nobody".to_owned(),
+        "robustness nobody --repertoire r.ron".to_owned(),
         "robustness balance".to_owned(),
     ];
     let calls: Vec<Vec<&str>> = calls.iter().map(|c| c.split(' ').collect()).collect();

@@ -186,15 +186,15 @@ fn results_are_told_in_words() {
 
 #[test]
 fn who_falls_limp_lets_go_and_breaks_no_fall() {
-    let options = "--count 4 --max-impulse 250 --min-impulse 200 --duration 2";
+    let options = "--count 12 --max-impulse 250 --min-impulse 200 --duration 2";
     let trials = json(&format!("trials --repertoire limp {options}"));
     let pool = trials["controllers"].as_object().unwrap();
     assert_eq!(pool.keys().collect::<Vec<_>>(), ["balance", "rest"]);
     assert_eq!(
         (&trials["standing"], &trials["fell"]),
-        (&0.into(), &4.into())
+        (&0.into(), &12.into())
     );
-    assert_eq!(trials["controllers"]["rest"]["activations"], 4);
+    assert_eq!(trials["controllers"]["rest"]["activations"], 12);
     // More than the weight of it.
     let force = |key: &str| trials["falls"][key].as_f64().unwrap();
     assert!(force("median_head_force") > 800.0 && force("median_trunk_force") > 800.0);

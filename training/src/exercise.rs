@@ -2,31 +2,42 @@
 //!
 //! skill, drill → starts in random worlds; mind → rollouts in parallel → [`Score`].
 //!
-//! A controller that takes over from a character on its feet alone, and leaves it standing, is
-//! pushed ([`stepping`]); any other is taken from where the repertoire hands over to it, in heaps on
-//! the floor and in falls, to its goal ([`rising`]). The first is told from its contract: its
-//! pre-condition refuses every centre of mass below 0.7 of the standing height.
+//! A controller of kind `fall` is for pushes that nothing withstands ([`falling`]). One that takes
+//! over from a character on its feet alone, and leaves it standing, is pushed less ([`stepping`]);
+//! it is told from its contract: its pre-condition refuses every centre of mass below 0.7 of the
+//! standing height. Any other is taken from where the repertoire hands over to it, in heaps on the
+//! floor and in falls, to its goal ([`rising`]).
+
+#[cfg(test)]
+mod tests;
 
 use std::ops::ControlFlow;
 
+use aplomb_controllers::fall::FallSpec;
 use aplomb_framework::condition::Condition;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::model::Model;
+use aplomb_framework::registry::Spec;
 use aplomb_framework::simulation::Simulation;
 use aplomb_framework::supervisor::Supervisor;
 use aplomb_framework::{Error, Result};
 use rayon::prelude::*;
 
+use crate::falling;
+use crate::pushes::{Pushes, Site, is_forward};
 use crate::rising::{self, Goal};
 use crate::skill::Skill;
 use crate::starts::{self, starts};
-use crate::stepping::{self, Pushes};
+use crate::stepping;
 use crate::worlds::Worlds;
 
 /// Lowest centre of mass of whoever is on its feet, relative to the standing height.
 const UPRIGHT: f64 = 0.7;
 /// Part of the starts that are heaps; the others are falls.
 const HEAPS: f64 = 0.5;
+/// N·s; weakest and strongest push of a fall, and where they act.
+const FALLS: [f64; 2] = [60.0, 260.0];
+const EVERYWHERE: &[Site] = &[Site::Trunk, Site::Root, Site::Head];
 
 /// What a controller has to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,15 +46,24 @@ pub enum Task {
     Rise(Goal),
     /// Take a push.
     Push,
+    /// Come down well after a push.
+    Fall,
 }
 
 impl Task {
-    /// What a contract asks for.
+    /// What a skill's kind and contract ask for.
     ///
     /// # Errors
     /// [`Error::Invalid`] if there is nothing to measure: a controller that never ends or has always
     /// succeeded, and one that acts only on command and on its feet.
-    pub fn of(contract: &Contract, model: &Model) -> Result<Self> {
+    pub fn of(skill: &Skill) -> Result<Self> {
+        if skill.kind() == <FallSpec as Spec>::KIND {
+            return Ok(Self::Fall);
+        }
+        Self::by_contract(&skill.contract, &skill.model)
+    }
+
+    fn by_contract(contract: &Contract, model: &Model) -> Result<Self> {
         let invalid = |field: &str, problem: String, accepted: &str| {
             Err(Error::invalid(&contract.name, field, problem, accepted))
         };
@@ -83,8 +103,8 @@ pub struct Drill {
     pub worlds: Worlds,
     /// Weakest and strongest push of [`Task::Push`], N·s.
     pub impulse: [f64; 2],
-    /// Whether one push in three is at the root instead of the trunk.
-    pub at_root: bool,
+    /// Where the pushes of [`Task::Push`] act, in turn.
+    pub sites: &'static [Site],
     /// How many.
     pub starts: usize,
     /// Fixes everything random.
@@ -98,7 +118,7 @@ impl Drill {
         Self {
             worlds: Worlds::VARIED,
             impulse: [40.0, 90.0],
-            at_root: true,
+            sites: &[Site::Trunk, Site::Trunk, Site::Root],
             starts,
             seed,
         }
@@ -110,9 +130,18 @@ impl Drill {
         Self {
             worlds,
             impulse: [40.0, 75.0],
-            at_root: false,
+            sites: &[Site::Trunk],
             starts,
             seed,
+        }
+    }
+
+    fn pushes(&self) -> Pushes {
+        Pushes {
+            impulse: self.impulse,
+            sites: self.sites,
+            count: self.starts,
+            seed: self.seed,
         }
     }
 }
@@ -122,7 +151,7 @@ impl Drill {
 pub struct Score {
     /// Mean over the starts; less is better.
     pub cost: f64,
-    /// Starts from which it reached its goal.
+    /// Starts from which it reached its goal; falls that it broke well.
     pub reached: usize,
 }
 
@@ -154,7 +183,7 @@ impl Exercise {
         watch: impl FnMut(usize) -> ControlFlow<()>,
     ) -> Result<Self> {
         let (model, mind, contract) = (&skill.model, &skill.mind, &skill.contract);
-        let task = Task::of(contract, model)?;
+        let task = Task::of(skill)?;
         let starts = match task {
             Task::Rise(_) => {
                 let source = starts::Source {
@@ -164,14 +193,14 @@ impl Exercise {
                 };
                 starts(source, drill.starts, model, contract, mind, watch)?
             }
-            Task::Push => {
+            Task::Push => drill.pushes().begin(model, mind, drill.worlds)?,
+            Task::Fall => {
                 let pushes = Pushes {
-                    impulse: drill.impulse,
-                    at_root: drill.at_root,
-                    count: drill.starts,
-                    seed: drill.seed,
+                    impulse: FALLS,
+                    sites: EVERYWHERE,
+                    ..drill.pushes()
                 };
-                stepping::pushed(model, mind, pushes, drill.worlds)?
+                pushes.begin(model, mind, drill.worlds)?
             }
         };
         Ok(Self {
@@ -197,7 +226,7 @@ impl Exercise {
     /// How well the controller does in a repertoire.
     #[must_use]
     pub fn judge(&self, mind: &Supervisor) -> Score {
-        let one = |start: &Simulation| match self.task {
+        let one = |(index, start): (usize, &Simulation)| match self.task {
             Task::Rise(goal) => {
                 let rising = rising::rise(start, mind, &self.contract, goal);
                 (rising.cost(), rising.reached)
@@ -206,74 +235,16 @@ impl Exercise {
                 let stepped = stepping::step(start, mind);
                 (stepped.cost(), stepped.stood)
             }
+            Task::Fall => {
+                let landing = falling::land(start, mind, is_forward(index));
+                (landing.cost(), landing.protected)
+            }
         };
         // In the order of the starts, so that the number of threads does not change the sum.
-        let all: Vec<(f64, bool)> = self.starts.par_iter().map(one).collect();
+        let all: Vec<(f64, bool)> = self.starts.par_iter().enumerate().map(one).collect();
         Score {
             cost: all.iter().map(|(cost, _)| cost).sum::<f64>() / all.len().max(1) as f64,
             reached: all.iter().filter(|(_, reached)| *reached).count(),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::skill::tests::{TUCK, skills};
-    use aplomb_framework::sensors::Posture;
-
-    fn task(contract: &str) -> std::result::Result<Task, String> {
-        let mut contract: Contract = ron::from_str(contract).unwrap();
-        let model = Model::load("humanoid").unwrap();
-        contract.resolve(&model).unwrap();
-        Task::of(&contract, &model).map_err(|e| e.to_string())
-    }
-
-    fn with(pre: &str, post: &str, weight: u32) -> std::result::Result<Task, String> {
-        task(&format!(
-            r#"(name: "x", weight: {weight}, precondition: {pre}, postcondition: {post})"#
-        ))
-    }
-
-    #[test]
-    fn the_task_follows_from_the_contract() {
-        let high = r#"All([Posture([standing]), Within(feature: "com_height", min: 0.75)])"#;
-        let low = r#"Any([Posture([crouching]), Within(feature: "com_height", min: 0.75)])"#;
-        let stand = "All([Posture([crouching, standing])])";
-        assert_eq!(with(high, stand, 7), Ok(Task::Push));
-        assert_eq!(with(low, stand, 7), Ok(Task::Rise(Goal::Stand)));
-        assert_eq!(with(low, stand, 0), Ok(Task::Rise(Goal::Stand)));
-        let prone = Task::Rise(Goal::Reach(Posture::Prone));
-        assert_eq!(with(high, "Posture([prone, sitting])", 0), Ok(prone));
-        let refusals = [(high, stand, 0), (low, "Never", 1), (low, "Always", 1)];
-        for (pre, post, weight) in refusals {
-            let told = with(pre, post, weight).unwrap_err();
-            assert!(told.contains("accepted: "), "{told}");
-        }
-    }
-
-    /// Digests of the starts, and the score, on so many threads.
-    fn exercised(threads: usize, text: &str) -> (Vec<String>, Score) {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.unwrap().install(|| {
-            let (_folder, skills) = skills(text);
-            let skill = Skill::find(&skills, "tuck").unwrap();
-            let drill = Drill::training(3, 5);
-            let exercise = Exercise::new(skill, drill, |_| ControlFlow::Continue(())).unwrap();
-            let digests = exercise.starts.iter().map(Simulation::digest).collect();
-            (digests, exercise.judge(&skill.mind))
-        })
-    }
-
-    #[test]
-    fn starts_and_scores_are_the_same_on_any_number_of_threads() {
-        let (starts, score) = exercised(1, TUCK);
-        assert_eq!(starts.len(), 3);
-        assert_eq!(exercised(2, TUCK), (starts.clone(), score));
-        assert!(score.reached > 0 && score.cost < 2.0, "{score:?}");
-        // Other numbers of the controller: the same starts.
-        let (same, other) = exercised(2, &TUCK.replace(r#""hip": 0.5"#, r#""hip": 0.7"#));
-        assert_eq!(same, starts);
-        assert_ne!(other, score);
     }
 }

@@ -1,25 +1,28 @@
-//! How well a falling controller protects: a cost over pushes that nothing withstands.
+//! How well a falling controller protects a character that is pushed over.
 //!
-//! repertoire in text → rollouts → what touched first, impacts, rest → cost.
+//! push, mind → rollout → what touched first, impacts, rest → cost.
 
-use aplomb_framework::Result;
-use aplomb_framework::registry::Registry;
-use aplomb_framework::sensors::{Posture, Sensors};
+use aplomb_framework::sensors::Sensors;
 use aplomb_framework::simulation::Simulation;
-
-use crate::standing::{Push, Site};
+use aplomb_framework::supervisor::Supervisor;
+use aplomb_framework::trajectory::EventKind;
 
 /// Impacts are averaged over this time, s (a 1 ms peak is the solver's, not the body's).
 const FILTER: f64 = 0.01;
-/// s after the push at which the character should be at rest.
-const SETTLED: f64 = 4.0;
+/// s from the push within which the character should lie still.
+const LONGEST: f64 = 2.6;
+/// m/s; a slower centre of mass is still.
+const STILL: f64 = 0.15;
+/// s of stillness that end a fall.
+const QUIET: f64 = 0.1;
 
 /// What a fall did to the character.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Landing {
-    /// Whether it came down at all.
+    /// Whether it came down at all: onto something other than feet.
     pub fell: bool,
-    /// Whether hands (forward), or hands or seat (backward), touched before head and trunk.
+    /// Whether hands (forward), or hands or seat (backward), touched before head and trunk, or none
+    /// of them did.
     pub protected: bool,
     /// Speed of the head when it first touched, m/s; 0 if it never did.
     pub head_speed: f64,
@@ -27,55 +30,41 @@ pub struct Landing {
     pub head_force: f64,
     /// Largest filtered force on trunk and root together, N.
     pub trunk_force: f64,
-    /// Whether it lay or sat at rest at the end.
+    /// Whether it lay or sat still in time, or had fallen to its controller's satisfaction, or never
+    /// came down.
     pub settled: bool,
 }
 
-/// Pushes both ways, of root, trunk and head in turn, evenly over a range of impulses, N·s.
-#[must_use]
-pub fn pushes(low: f64, high: f64, count: usize) -> Vec<Push> {
-    let step = (high - low) / (count.max(2) - 1) as f64;
-    let one = |i: usize| {
-        let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
-        let impulse = sign * (low + step * i as f64);
-        Push {
-            site: [Site::Trunk, Site::Root, Site::Head][(i / 2) % 3],
-            impulse,
-            at: 1.0 + 0.0007 * i as f64,
-            friction: [1.0, 0.8, 1.1][i % 3],
-        }
-    };
-    (0..count).map(one).collect()
+impl Landing {
+    /// What it is charged: an unprotected landing most, then how hard head and trunk hit, and a
+    /// little for unrest.
+    #[must_use]
+    pub fn cost(&self) -> f64 {
+        let unprotected = if self.protected { 0.0 } else { 1.0 };
+        let hit = (self.head_force / 2000.0).min(4.0) + (self.trunk_force / 5000.0).min(4.0);
+        let unrest = if self.settled { 0.0 } else { 0.2 };
+        unprotected + 0.3 * self.head_speed + hit + unrest
+    }
 }
 
-/// One fall.
-///
-/// # Errors
-/// An invalid repertoire.
-pub fn land(text: &str, registry: &Registry, push: Push) -> Result<Landing> {
-    Ok(land_from(
-        push.begin(text, registry)?,
-        push.impulse > 0.0,
-        SETTLED,
-    ))
-}
-
-/// One fall from the moment of its push, forward or backward, watched for `longest` s.
+/// Runs `mind` from a push, forward or backward, until the character lies still or the controller
+/// that it came down with has succeeded: whatever touches after that belongs to getting up.
 #[must_use]
-pub fn land_from(mut run: Simulation, forward: bool, longest: f64) -> Landing {
+pub fn land(start: &Simulation, mind: &Supervisor, forward: bool) -> Landing {
+    let mut run = start.clone();
+    run.set_mind(0, mind.clone());
     let begun = run.time();
+    let dt = run.world().settings().dt;
+    let mix = dt / FILTER;
     let mut landing = Landing::default();
     let mut first: Option<bool> = None;
-    let (mut head, mut trunk, mut head_before) = (0.0, 0.0, 0.0);
-    let mix = run.world().settings().dt / FILTER;
-    while run.time() < begun + longest {
+    let (mut head, mut trunk, mut head_before, mut quiet) = (0.0, 0.0, 0.0, 0.0);
+    let mut seen = run.events().len();
+    while run.time() < begun + LONGEST && !landing.settled {
         run.step();
         let now = run.sensors(0);
         let model = &now.model;
-        let force = |link: usize| {
-            let f = now.contacts[link].force;
-            f[0].hypot(f[1])
-        };
+        let force = |link: usize| now.contacts[link].force[0].hypot(now.contacts[link].force[1]);
         head += mix * (force(model.head) - head);
         trunk += mix * (force(model.trunk) + force(0) - trunk);
         landing.head_force = landing.head_force.max(head);
@@ -88,11 +77,22 @@ pub fn land_from(mut run: Simulation, forward: bool, longest: f64) -> Landing {
         if first.is_none() {
             first = first_touch(now, forward);
         }
+        let mut others = (0..model.links.len()).filter(|l| !model.is_foot(*l));
+        landing.fell |= others.any(|l| now.contacts[l].supported);
+        let speed = now.com_velocity[0].hypot(now.com_velocity[1]);
+        quiet = if landing.fell && speed < STILL {
+            quiet + dt
+        } else {
+            0.0
+        };
+        let succeeded = run.events()[seen..]
+            .iter()
+            .any(|e| matches!(&e.kind, EventKind::Switch { why, .. } if why == "succeeded"));
+        seen = run.events().len();
+        landing.settled = quiet >= QUIET || landing.fell && succeeded;
     }
-    let now = run.sensors(0);
-    landing.fell = !matches!(now.posture, Posture::Standing | Posture::Crouching);
     landing.protected = first.unwrap_or(true);
-    landing.settled = now.com_velocity[0].hypot(now.com_velocity[1]) < 0.05;
+    landing.settled |= !landing.fell;
     landing
 }
 
@@ -112,17 +112,42 @@ fn first_touch(now: &Sensors, forward: bool) -> Option<bool> {
     }
 }
 
-/// Mean over the pushes: unprotected landings, impacts of head and trunk, unrest at the end.
-///
-/// # Errors
-/// An invalid repertoire.
-pub fn cost(text: &str, registry: &Registry, pushes: &[Push]) -> Result<f64> {
-    let mut sum = 0.0;
-    for push in pushes {
-        let l = land(text, registry, *push)?;
-        sum += if l.protected { 0.0 } else { 1.0 };
-        sum += 0.3 * l.head_speed + l.head_force / 2000.0 + l.trunk_force / 5000.0;
-        sum += if l.settled { 0.0 } else { 0.5 };
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pushes::{Pushes, Site};
+    use crate::worlds::Worlds;
+    use aplomb_framework::model::Model;
+    use aplomb_framework::repertoire;
+
+    /// A landing of the humanoid with a shipped repertoire, backward.
+    fn landing(repertoire: &str, impulse: f64) -> Landing {
+        let model = Model::load("humanoid").unwrap();
+        let registry = aplomb_controllers::registry();
+        let mind = repertoire::load(repertoire, &registry, &model).unwrap();
+        let pushes = Pushes {
+            impulse: [impulse; 2],
+            sites: &[Site::Trunk],
+            count: 2,
+            seed: 0,
+        };
+        let starts = pushes.begin(&model, &mind, Worlds::single(1.0, 1.0));
+        land(&starts.unwrap()[1], &mind, false)
     }
-    Ok(sum / pushes.len() as f64)
+
+    #[test]
+    fn a_fall_that_is_broken_costs_less_than_falling_limp() {
+        let (broken, limp) = (landing("humanoid", 150.0), landing("limp", 150.0));
+        assert!(broken.fell && broken.protected, "{broken:?}");
+        assert!(limp.fell && limp.settled, "{limp:?}");
+        assert!(limp.head_speed > broken.head_speed, "{limp:?} {broken:?}");
+        assert!(limp.cost() > broken.cost() + 0.5, "{limp:?} {broken:?}");
+    }
+
+    #[test]
+    fn who_stays_on_its_feet_is_charged_nothing() {
+        let stood = landing("humanoid", 10.0);
+        assert!(!stood.fell, "{stood:?}");
+        assert_eq!(stood.cost(), 0.0);
+    }
 }

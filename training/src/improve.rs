@@ -12,6 +12,7 @@ mod tests;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use aplomb_controllers::fall::FallSpec;
 use aplomb_controllers::pose::PoseSpec;
 use aplomb_controllers::step::StepSpec;
 use aplomb_framework::file::{Source, write_atomically};
@@ -25,7 +26,11 @@ use crate::skill::Skill;
 use crate::tune::{Tunable, at, line_of, point_of, spec_in, text_of};
 
 /// The kinds of controllers that can be searched.
-pub const KINDS: [&str; 2] = [<PoseSpec as Tunable>::KIND, <StepSpec as Tunable>::KIND];
+pub const KINDS: [&str; 3] = [
+    <PoseSpec as Tunable>::KIND,
+    <StepSpec as Tunable>::KIND,
+    <FallSpec as Tunable>::KIND,
+];
 
 /// How to search.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,10 +83,13 @@ pub fn improve(
     watch: impl FnMut(Stage) -> ControlFlow<()>,
 ) -> Result<Option<Found>> {
     check(skill)?;
-    if skill.kind() == <PoseSpec as Tunable>::KIND {
+    let kind = skill.kind();
+    if kind == <PoseSpec as Tunable>::KIND {
         search::<PoseSpec>(skill, plan, watch)
-    } else {
+    } else if kind == <StepSpec as Tunable>::KIND {
         search::<StepSpec>(skill, plan, watch)
+    } else {
+        search::<FallSpec>(skill, plan, watch)
     }
 }
 
@@ -91,11 +99,10 @@ pub fn improve(
 /// [`Error::Invalid`] with what is accepted.
 pub fn check(skill: &Skill) -> Result<()> {
     if !KINDS.contains(&skill.kind()) {
-        let accepted = format!("a controller of kind {}", KINDS.join(" or "));
-        let problem = skill.kind();
+        let (problem, accepted) = (skill.kind(), KINDS.join(", "));
         return Err(Error::invalid(skill.name(), "kind", problem, accepted));
     }
-    Task::of(&skill.contract, &skill.model).map(|_| ())
+    Task::of(skill).map(|_| ())
 }
 
 fn search<T: Tunable + Spec>(

@@ -5,15 +5,16 @@
 //! - [`skill`]: a controller with the repertoire around it
 //! - [`worlds`]: friction, strength and mass that the controllers do not know
 //! - [`starts`]: heaps and falls from which the repertoire hands over to a controller
+//! - [`pushes`]: pushes of a character that stands
 //! - [`rising`]: how well a controller brings a character that is down to its goal
 //! - [`stepping`]: how well a step takes pushes
-//! - [`exercise`]: which of the two a controller is measured by, and its score
+//! - [`falling`]: how well a falling controller protects
+//! - [`exercise`]: which of the three a controller is measured by, and its score
 //! - [`improve`](mod@improve): skill → better controller file
 //! - [`journal`]: what a search has found out so far, on disk
 //!
 //! Controllers alone:
 //!
-//! - [`falling`]: how well a falling controller protects
 //! - [`standing`]: how well a standing controller takes pushes at its limit
 //!
 //! All of them:
@@ -28,6 +29,7 @@ pub mod exercise;
 pub mod falling;
 pub mod improve;
 pub mod journal;
+pub mod pushes;
 pub mod rising;
 pub mod skill;
 pub mod standing;

@@ -63,7 +63,7 @@ impl Skill {
         &self.contract.name
     }
 
-    /// Its kind: `pose`, `step`.
+    /// Its kind: `pose`, `step`, `fall`.
     #[must_use]
     pub fn kind(&self) -> &str {
         &self.file.kind

@@ -12,32 +12,10 @@ use aplomb_framework::scenario::Scenario;
 use aplomb_framework::simulation::Simulation;
 use aplomb_framework::{Result, repertoire};
 
+use crate::pushes::Site;
+
 /// s after a push at which the pose should be as before.
 const RECOVERED: f64 = 3.5;
-
-/// Where a push acts: on the centre of mass of a link that every character has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Site {
-    /// The root link, the humanoid's pelvis.
-    Root,
-    /// The trunk.
-    Trunk,
-    /// The head.
-    Head,
-}
-
-impl Site {
-    /// The link's name.
-    #[must_use]
-    pub fn link(self, model: &Model) -> &str {
-        let link = match self {
-            Self::Root => 0,
-            Self::Trunk => model.trunk,
-            Self::Head => model.head,
-        };
-        &model.links[link].name
-    }
-}
 
 /// A push over 0.1 s.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,7 +58,7 @@ impl Push {
     ///
     /// # Errors
     /// An invalid repertoire.
-    pub(crate) fn begin(&self, text: &str, registry: &Registry) -> Result<Simulation> {
+    fn begin(&self, text: &str, registry: &Registry) -> Result<Simulation> {
         let mut scenario = Scenario::standing("humanoid", 10.0);
         scenario.settings.friction = self.friction;
         let model = Model::load("humanoid")?;

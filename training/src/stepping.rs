@@ -1,70 +1,14 @@
-//! How well a step takes pushes that balance in place does not: a cost over pushes in varied worlds.
+//! How well a step takes pushes that balance in place does not.
 //!
-//! pushes, mind → rollouts → steady on parallel feet, time, way, bent trunk → cost.
+//! push, mind → rollout → steady on parallel feet, time, way, bent trunk → cost.
 
-use std::sync::Arc;
-
-use aplomb_framework::Result;
-use aplomb_framework::model::Model;
-use aplomb_framework::scenario::Scenario;
 use aplomb_framework::simulation::Simulation;
 use aplomb_framework::supervisor::Supervisor;
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 
-use crate::worlds::Worlds;
-
-/// s; when the character is pushed.
-const PUSH_AT: f64 = 0.5;
 /// s after the push within which it is to stand.
 const LONGEST: f64 = 6.0;
 /// s for which it must stand.
 const STEADY: f64 = 0.3;
-
-/// Pushes either way, one after the other stronger.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pushes {
-    /// Weakest and strongest, N·s; even steps between.
-    pub impulse: [f64; 2],
-    /// Whether one in three is at the root, where the same impulse turns the character less; the
-    /// others are at the trunk.
-    pub at_root: bool,
-    /// How many.
-    pub count: usize,
-    /// Fixes worlds and moments.
-    pub seed: u64,
-}
-
-/// Characters that have stood under `mind`, at the moment at which they are pushed.
-///
-/// # Errors
-/// A mind for another character.
-pub fn pushed(
-    model: &Arc<Model>,
-    mind: &Supervisor,
-    pushes: Pushes,
-    worlds: Worlds,
-) -> Result<Vec<Simulation>> {
-    let one = |i: usize| {
-        let mut rng = ChaCha8Rng::seed_from_u64(pushes.seed);
-        rng.set_stream(i as u64);
-        let mut scenario = Scenario::standing(&model.name, LONGEST);
-        scenario.settings = worlds.draw(&mut rng);
-        let mut run = Simulation::with_cast(&scenario, vec![(Arc::clone(model), mind.clone())])?;
-        run.run(PUSH_AT + rng.gen_range(0.0..0.2));
-        let (pair, pairs) = (i / 2, pushes.count.div_ceil(2).max(2));
-        let part = pair as f64 / (pairs - 1) as f64;
-        let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
-        let root = pushes.at_root && pair % 3 == 2;
-        let link = if root { 0 } else { model.trunk };
-        let [low, high] = pushes.impulse;
-        let impulse = sign * (low + part * (high - low));
-        run.push(0, &model.links[link].name, impulse)?;
-        Ok(run)
-    };
-    (0..pushes.count).into_par_iter().map(one).collect()
-}
 
 /// What became of one push.
 #[derive(Debug, Clone, Copy, PartialEq)]

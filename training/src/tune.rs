@@ -137,27 +137,24 @@ pub fn text_of<T: Tunable>(contract: &Contract, spec: &T, header: &str) -> Strin
     text + &body + "\n"
 }
 
-/// A repertoire of the shipped `others`, this controller and one that lets go.
+/// A repertoire of this controller and one that lets go.
 #[must_use]
-pub fn repertoire_with<T: Tunable>(others: &[&str], contract: &Contract, spec: &T) -> String {
-    let files: String = others.iter().map(|o| format!("File(\"{o}\"), ")).collect();
+pub fn repertoire_with<T: Tunable>(contract: &Contract, spec: &T) -> String {
     format!(
-        "(name: \"tuned\", fallback: \"rest\", controllers: [{files}Here({}), \
+        "(name: \"tuned\", fallback: \"rest\", controllers: [Here({}), \
          File(\"skills/rest.ron\")])",
         text_of(contract, spec, "")
     )
 }
 
-/// Searches from a file's own numbers for the least `cost` of a repertoire in text. `others` are
-/// shipped controllers that come before it in the pool. `watch` sees the evaluations so far, the
-/// least cost and the file's text for it, after the first evaluation and then each generation, so
-/// that a search that is stopped has lost nothing. Returns the least cost.
+/// Searches from a file's own numbers for the least `cost` of a repertoire in text. `watch` sees the
+/// evaluations so far, the least cost and the file's text for it, after the first evaluation and then
+/// each generation, so that a search that is stopped has lost nothing. Returns the least cost.
 ///
 /// # Errors
 /// An invalid file.
 pub fn search<T: Tunable>(
     source: &Source,
-    others: &[&str],
     cost: impl Fn(&str) -> Result<f64> + Sync,
     search: Search,
     mut watch: impl FnMut(usize, f64, &dyn Fn(&str) -> String),
@@ -166,9 +163,9 @@ pub fn search<T: Tunable>(
     let model = Model::load("humanoid")?;
     let start = point_of(&base, &model);
     // A first run, so that an invalid file is an error and not a cost.
-    cost(&repertoire_with(others, &contract, &base))?;
+    cost(&repertoire_with(&contract, &base))?;
     let cost = |point: &[f64]| {
-        let text = repertoire_with(others, &contract, &at(&base, &model, point));
+        let text = repertoire_with(&contract, &at(&base, &model, point));
         cost(&text).unwrap_or(f64::INFINITY)
     };
     let best = minimise(&start, search, cost, |evaluations, best: &Best| {
@@ -182,7 +179,8 @@ pub fn search<T: Tunable>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{falling, standing};
+    use crate::pushes::Site;
+    use crate::standing;
     use aplomb_controllers::balance::BalanceSpec;
     use aplomb_controllers::fall::FallSpec;
 
@@ -214,24 +212,17 @@ mod tests {
     }
 
     #[test]
-    fn light_pushes_are_stood_and_heavy_ones_are_fallen_from() {
+    fn light_pushes_are_stood_and_heavy_ones_are_not() {
         let registry = aplomb_controllers::registry();
         let (contract, spec) = spec_of::<BalanceSpec>(&shipped("skills/balance.ron")).unwrap();
-        let text = repertoire_with(&[], &contract, &spec);
+        let text = repertoire_with(&contract, &spec);
         let push = |impulse| standing::Push {
-            site: standing::Site::Trunk,
+            site: Site::Trunk,
             impulse,
             at: 1.0,
             friction: 1.0,
         };
         assert!(standing::take(&text, &registry, push(15.0)).unwrap().stood);
         assert!(!standing::take(&text, &registry, push(120.0)).unwrap().stood);
-        let (contract, spec) = spec_of::<FallSpec>(&shipped("skills/fall.ron")).unwrap();
-        let text = repertoire_with(&["skills/balance.ron"], &contract, &spec);
-        let landing = falling::land(&text, &registry, push(-120.0)).unwrap();
-        assert!(landing.fell && landing.protected, "{landing:?}");
-        let alone = "(name: \"x\", fallback: \"rest\", controllers: [File(\"skills/rest.ron\")])";
-        let limp = falling::land(alone, &registry, push(-120.0)).unwrap();
-        assert!(limp.head_speed > landing.head_speed, "{limp:?} {landing:?}");
     }
 }

@@ -1,7 +1,8 @@
 //! Contacts: feet that carry, characters and props that meet.
 
 use aplomb_framework::model::Shape;
-use aplomb_framework::sensors::Posture;
+use aplomb_framework::sensors::{Posture, Sensors};
+use aplomb_framework::simulation::put_on_ground;
 use aplomb_framework::state::State;
 use aplomb_framework::world::{Prop, Settings, World};
 
@@ -208,4 +209,35 @@ fn feet_are_on_the_ground_before_the_first_step() {
     let moved = now.state.clone();
     world.detect_contacts();
     assert_eq!(world.sense(0).state, moved);
+}
+
+/// What is sensed of a character that has been put on the ground in a pose.
+fn put_down(pitch: f64, angles: &[(&str, f64)]) -> Sensors {
+    let model = humanoid();
+    let mut state = State::standing(&model);
+    state.q[2] = pitch;
+    for (stem, angle) in angles {
+        for side in ["r", "l"] {
+            let joint = model.joint_index(&format!("{stem}_{side}")).unwrap();
+            state.q[3 + joint] = *angle;
+        }
+    }
+    put_on_ground(&model, &mut state, 0.0);
+    let mut world = World::new(Settings::default());
+    world.spawn(&model, &state);
+    world.detect_contacts();
+    world.sense(0).clone()
+}
+
+#[test]
+fn a_thigh_that_touches_at_its_knee_kneels_and_one_that_lies_sits() {
+    let thigh = humanoid().link_index("thigh_r").unwrap();
+    // The shanks are folded up behind the thighs: nothing but the knees is left to kneel on.
+    let knees = put_down(0.0, &[("knee", -2.6)]);
+    assert!(knees.contacts[thigh].supported && knees.contacts[thigh].knee);
+    assert_eq!(knees.posture, Posture::Kneeling);
+    // On the same thighs, laid flat in front.
+    let flat = put_down(0.0, &[("hip", 1.57), ("knee", 0.0), ("shoulder", 1.57)]);
+    assert!(flat.contacts[thigh].supported && !flat.contacts[thigh].knee);
+    assert_eq!(flat.posture, Posture::Sitting);
 }

@@ -6,7 +6,7 @@ use std::io::Write;
 
 use anyhow::Result;
 use aplomb::framework::model::Model;
-use aplomb_training::skill::Skill;
+use aplomb::training::skill::Skill;
 use clap::Subcommand;
 
 use super::Verdict;

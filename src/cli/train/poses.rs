@@ -9,10 +9,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow};
-use aplomb_training::exercise::Score;
-use aplomb_training::improve::{self, Found, Plan, Stage};
-use aplomb_training::journal;
-use aplomb_training::skill::Skill;
+use aplomb::training::exercise::Score;
+use aplomb::training::improve::{self, Found, Plan, Stage};
+use aplomb::training::journal;
+use aplomb::training::skill::Skill;
 use clap::Args;
 use indicatif::ProgressBar;
 use serde::Serialize;
@@ -28,7 +28,9 @@ use crate::cli::{Verdict, progress, work};
 /// CMA-ES over many rollouts in random worlds (friction 0.6 to 1.2, torque 0.85 to 1.15, mass 0.95
 /// to 1.05). A controller of kind pose or step is taken from where its repertoire hands over to it,
 /// half of the times in a heap on the floor, half in a fall after a push, and has to come to its goal
-/// without any failure; a step that takes over from standing is pushed, by 40 to 90 N·s either way.
+/// without any failure; a step that takes over from standing is pushed, by 40 to 90 N·s either way. A
+/// controller of kind fall is pushed by 60 to 260 N·s on trunk, root and head in turn, and has to keep
+/// head and trunk from hitting the ground first, and hard.
 ///
 /// The best controller so far is always in the output; beside it is a journal with which --resume
 /// goes on, also after the program was killed, to what it would have found. Ctrl-C ends the search
@@ -38,9 +40,10 @@ use crate::cli::{Verdict, progress, work};
 Examples:
   aplomb train poses rise_supine --evaluations 2000 --starts 40
   aplomb train poses rise_supine --evaluations 4000 --starts 40 --resume
+  aplomb train poses fall --starts 42
   aplomb train poses tuck --repertoire mine.ron --out better.ron --json")]
 pub(in crate::cli) struct PosesArgs {
-    /// Name of a controller of the repertoire, of kind pose or step
+    /// Name of a controller of the repertoire, of kind pose, step or fall
     controller: String,
     #[command(flatten)]
     cast: CastArgs,

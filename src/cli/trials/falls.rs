@@ -184,7 +184,7 @@ mod tests {
         let mut now = Sensors::new(&model, 9.81);
         for (i, links) in touches.iter().enumerate() {
             now.time = i as f64;
-            now.com_velocity = [1.0, 0.0];
+            now.com_velocity = [if forward { 1.0 } else { -1.0 }, 0.0];
             now.kinematics.links[model.head].com_velocity = [0.0, -1.0 - i as f64];
             for (link, contact) in model.links.iter().zip(&mut now.contacts) {
                 contact.touching = links.contains(&link.name.as_str());

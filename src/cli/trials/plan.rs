@@ -11,6 +11,7 @@ use aplomb::framework::registry::Registry;
 use aplomb::framework::scenario::{Happening, Number, PUSH_DURATION, Scenario};
 use aplomb::framework::simulation::Simulation;
 use aplomb::framework::trajectory::{Event, EventKind};
+use aplomb::training::worlds::Worlds;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -20,10 +21,8 @@ use super::falls::{Fall, Watch};
 const PUSH_AT: f64 = 1.0;
 /// Gap under a heap before it drops, m.
 const DROP: f64 = 0.02;
-/// Least and most friction, torque and mass of a trial's own world, relative to the scenario's.
-const FRICTION: [f64; 2] = [0.6, 1.2];
-const TORQUE: [f64; 2] = [0.85, 1.15];
-const MASS: [f64; 2] = [0.95, 1.05];
+/// A trial's own world, relative to the scenario's.
+const WORLDS: Worlds = Worlds::VARIED;
 /// Steps between two looks at whether to stop.
 const PATIENCE: u64 = 500;
 
@@ -161,9 +160,9 @@ impl Plan {
         if vary {
             let world = &mut scenario.settings;
             for (setting, [least, most]) in [
-                (&mut world.friction, FRICTION),
-                (&mut world.torque, TORQUE),
-                (&mut world.mass, MASS),
+                (&mut world.friction, WORLDS.friction),
+                (&mut world.torque, WORLDS.torque),
+                (&mut world.mass, WORLDS.mass),
             ] {
                 *setting *= rng.gen_range(least..most);
             }
@@ -283,8 +282,8 @@ mod tests {
             assert!(least <= low && low < least + margin, "{low}");
             assert!(most - margin < high && high <= most, "{high}");
         };
-        assert_spread(&|i| worlds[i].friction, FRICTION);
-        assert_spread(&|i| worlds[i].torque, TORQUE.map(|t| 0.5 * t));
-        assert_spread(&|i| worlds[i].mass, MASS);
+        assert_spread(&|i| worlds[i].friction, WORLDS.friction);
+        assert_spread(&|i| worlds[i].torque, WORLDS.torque.map(|t| 0.5 * t));
+        assert_spread(&|i| worlds[i].mass, WORLDS.mass);
     }
 }

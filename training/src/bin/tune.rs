@@ -1,34 +1,30 @@
-//! `tune FILE OUT SEED EVALUATIONS SIGMA LOW HIGH [LOW HIGH]`: optimises the numbers of a
-//! controller's file over pushes of the trunk.
-//!
-//! For `balance` and `stance`: pushes (N·s) around the limits forward and backward. For `fall`:
-//! pushes either way.
+//! `tune FILE OUT SEED EVALUATIONS SIGMA LOW HIGH LOW HIGH`: optimises the numbers of a standing
+//! controller's file, of kind `balance` or `stance`, over pushes (N·s) of the trunk around its limits
+//! forward and backward.
 
 use std::path::Path;
 
 use aplomb_controllers::balance::BalanceSpec;
-use aplomb_controllers::fall::FallSpec;
 use aplomb_controllers::stance::StanceSpec;
 use aplomb_framework::Result;
 use aplomb_framework::file::{Source, write_atomically};
 use aplomb_framework::registry::ControllerFile;
 use aplomb_training::cma_es::Search;
+use aplomb_training::standing;
 use aplomb_training::tune::{self, Tunable};
-use aplomb_training::{falling, standing};
 
-const USAGE: &str = "tune FILE OUT SEED EVALUATIONS SIGMA LOW HIGH [LOW HIGH]";
+const USAGE: &str = "tune FILE OUT SEED EVALUATIONS SIGMA LOW HIGH LOW HIGH";
 
 /// Optimises one file; every improvement is written at once.
 fn optimise<T: Tunable>(
     source: &Source,
     out: &Path,
-    others: &[&str],
     search: Search,
     what: &str,
     cost: impl Fn(&str) -> Result<f64> + Sync,
 ) -> Result<()> {
     let (mut least, mut written) = (f64::INFINITY, Ok(()));
-    tune::search::<T>(source, others, cost, search, |evaluations, cost, text| {
+    tune::search::<T>(source, cost, search, |evaluations, cost, text| {
         eprintln!("{evaluations} evaluations: {cost:.4}");
         if cost < least {
             least = cost;
@@ -45,7 +41,7 @@ fn optimise<T: Tunable>(
 fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let numbers: Vec<f64> = args.iter().skip(2).map_while(|a| a.parse().ok()).collect();
-    let (Some(file), Some(out), [seed, evaluations, sigma, low, high, rest @ ..]) =
+    let (Some(file), Some(out), [seed, evaluations, sigma, low, high, low2, high2]) =
         (args.first(), args.get(1), numbers.as_slice())
     else {
         return Err(USAGE.into());
@@ -55,7 +51,7 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
         && (1.0..=1e6).contains(evaluations)
         && (1e-3..=1.0).contains(sigma)
         && range(*low, *high)
-        && rest.chunks(2).all(|r| r.len() == 2 && range(r[0], r[1]));
+        && range(*low2, *high2);
     if !fine {
         return Err(format!(
             "{USAGE}: up to 1e6 evaluations, SIGMA 0.001 to 1, LOW to HIGH within 0 to 1000 N·s"
@@ -72,25 +68,15 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let source = Source::read(Path::new(file))?;
     let kind = source.parse::<ControllerFile>()?.kind;
     let out = Path::new(out);
-    if kind == "fall" {
-        let pushes = falling::pushes(*low, *high, 24);
-        let cost = |text: &str| falling::cost(text, &registry, &pushes);
-        let what = format!("{} pushes of {low} to {high} N·s either way", pushes.len());
-        optimise::<FallSpec>(&source, out, &["skills/balance.ron"], search, &what, cost)?
-    } else {
-        let [low2, high2] = rest else {
-            return Err(USAGE.into());
-        };
-        let pushes = standing::pushes([*low, *high], [*low2, *high2], 2.0);
-        let cost = |text: &str| standing::cost(text, &registry, &pushes);
-        let what = format!(
-            "{} pushes of {low} to {high} N·s forward and {low2} to {high2} backward",
-            pushes.len()
-        );
-        match kind.as_str() {
-            "stance" => optimise::<StanceSpec>(&source, out, &[], search, &what, cost)?,
-            _ => optimise::<BalanceSpec>(&source, out, &[], search, &what, cost)?,
-        }
+    let pushes = standing::pushes([*low, *high], [*low2, *high2], 2.0);
+    let cost = |text: &str| standing::cost(text, &registry, &pushes);
+    let what = format!(
+        "{} pushes of {low} to {high} N·s forward and {low2} to {high2} backward",
+        pushes.len()
+    );
+    match kind.as_str() {
+        "stance" => optimise::<StanceSpec>(&source, out, search, &what, cost)?,
+        _ => optimise::<BalanceSpec>(&source, out, search, &what, cost)?,
     }
     Ok(())
 }

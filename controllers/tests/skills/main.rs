@@ -1,0 +1,47 @@
+//! The skills of the shipped humanoid, each for what it promises.
+#![allow(clippy::unwrap_used)]
+
+mod pose;
+mod step;
+
+use std::sync::Arc;
+
+use aplomb_controllers::registry;
+use aplomb_framework::controller::Controller;
+use aplomb_framework::file::Source;
+use aplomb_framework::model::Model;
+use aplomb_framework::registry::ControllerFile;
+use aplomb_framework::simulation::Simulation;
+use aplomb_framework::trajectory::{Event, EventKind};
+
+fn humanoid() -> Arc<Model> {
+    Model::load("humanoid").unwrap()
+}
+
+/// The text of a shipped file.
+fn shipped(name: &str) -> String {
+    registry().file(name).unwrap().text
+}
+
+/// A controller from the text of its file, or the refusal of it.
+fn built(text: &str) -> Result<Box<dyn Controller>, String> {
+    let source = Source::new("mine.ron", text);
+    let file: ControllerFile = source.parse().map_err(|e| e.to_string())?;
+    let built = registry().build(&source, &file, &humanoid());
+    built.map_err(|e| e.to_string())
+}
+
+/// When which controllers took over, s, and why.
+fn switches(run: &Simulation) -> Vec<(f64, &str, &str)> {
+    let switch = |event| match event {
+        &Event {
+            time,
+            kind: EventKind::Switch {
+                ref to, ref why, ..
+            },
+            ..
+        } => Some((time, to.as_str(), why.as_str())),
+        _ => None,
+    };
+    run.events().iter().filter_map(switch).collect()
+}

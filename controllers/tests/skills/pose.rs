@@ -1,0 +1,50 @@
+//! Pose control as data.
+
+use aplomb_controllers::registry;
+use aplomb_framework::file::Source;
+use aplomb_framework::repertoire;
+use aplomb_framework::scenario::Scenario;
+use aplomb_framework::simulation::Simulation;
+
+use super::{humanoid, switches};
+
+/// A pose that lifts an arm for 0.3 s in each of its two states, and expects something after each.
+fn waves(expects: [&str; 2]) -> Simulation {
+    let [first, second] = expects;
+    let text = format!(
+        r#"(name: "waving", fallback: "rest", controllers: [
+            Here((
+                kind: "pose",
+                contract: (
+                    name: "wave", weight: 5, precondition: Always,
+                    postcondition: Within(feature: "angle.shoulder_r", min: 0.3),
+                ),
+                spec: (states: [
+                    (pose: {{"shoulder_r": 0.2}}, duration: 0.3, expects: {first}),
+                    (pose: {{"shoulder_r": 0.6}}, duration: 0.3, expects: {second}),
+                ]),
+            )),
+            File("skills/rest.ron"),
+        ])"#
+    );
+    let model = humanoid();
+    let source = Source::new("waving", text);
+    let mind = repertoire::build(&source, None, &registry(), &model).unwrap();
+    let scenario = Scenario::standing("humanoid", 1.0);
+    let mut run = Simulation::with_cast(&scenario, vec![(model, mind)]).unwrap();
+    run.run(0.8);
+    run
+}
+
+#[test]
+fn a_state_that_ends_short_of_what_it_expects_fails_and_says_so() {
+    let high = r#"Within(feature: "angle.shoulder_r", min: 2.0)"#;
+    for (expects, after) in [([high, "Always"], 0), (["Always", high], 1)] {
+        let run = waves(expects);
+        let (time, _, why) = switches(&run)[1];
+        let told = format!("failed: after state {after}: expected angle.shoulder_r ≥ 2 (is ");
+        assert!(why.starts_with(&told), "{why}");
+        let due = 0.3 * f64::from(after + 1);
+        assert!((time - due).abs() < 0.005, "{time}");
+    }
+}
