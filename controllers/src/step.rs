@@ -83,6 +83,8 @@ pub struct StepSpec {
 /// s after which catching aims twice as far as the foot.
 const LEANING: f64 = 0.5;
 
+/// m by which each further step is longer than the one before.
+const LONGER: f64 = 0.06;
 /// m inside the ends of a sole that the capture point has to be for the other foot to leave.
 const INSIDE: f64 = 0.04;
 
@@ -117,6 +119,8 @@ pub struct Step {
     from: [f64; 2],
     /// Where the centre of mass is to come, world x, m.
     over: f64,
+    /// Protective swings so far.
+    swings: u32,
     time: f64,
 }
 
@@ -183,6 +187,7 @@ impl Spec for StepSpec {
             since: 0.0,
             from: [0.0; 2],
             over: 0.0,
+            swings: 0,
             time: 0.0,
             spec: self,
             contract,
@@ -226,6 +231,7 @@ impl Step {
             _ if ahead < -0.05 => 0,
             _ => unloaded,
         };
+        self.swings += 1;
         self.begin(now, Phase::Swing { foot, forward });
     }
 
@@ -243,7 +249,9 @@ impl Step {
             ((now.capture_point - edge) * (now.pendulum_rate() * left).exp()).clamp(-2.0, 2.0);
         let sign = if forward { 1.0 } else { -1.0 };
         let stance = Self::sole(now, 1 - foot)[0];
-        let x = edge + p.reach * run + sign * p.beyond;
+        // Who has to step again has stepped too short.
+        let longer = LONGER * f64::from(self.swings.saturating_sub(1).min(5));
+        let x = edge + p.reach * run + sign * (p.beyond + longer);
         stance + (x - stance).clamp(-self.spec.longest, self.spec.longest)
     }
 
@@ -409,6 +417,7 @@ impl Controller for Step {
     fn enter(&mut self, now: &Sensors) {
         self.momentum.reset();
         self.over = now.com[0];
+        self.swings = 0;
         self.reference.com = now.com;
         self.time = now.time;
         let outside = now
