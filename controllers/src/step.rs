@@ -83,6 +83,10 @@ pub struct StepSpec {
 /// s after which catching aims twice as far as the foot.
 const LEANING: f64 = 0.5;
 
+/// s of catching after which the stance is too wide.
+const STUCK: f64 = 1.2;
+/// s that drawing a foot nearer takes.
+const DRAW: f64 = 0.3;
 /// m by which each further step is longer than the one before.
 const LONGER: f64 = 0.06;
 /// m inside the ends of a sole that the capture point has to be for the other foot to leave.
@@ -96,6 +100,8 @@ enum Phase {
     Catch { over: usize },
     /// `foot` is brought beside `over`.
     Close { foot: usize, over: usize },
+    /// `foot` is drawn half of the way to the other, out of a split too wide to come over a foot.
+    Draw { foot: usize, to: f64 },
     /// Both feet carry side by side.
     Settle,
 }
@@ -211,7 +217,9 @@ impl Step {
     fn begin(&mut self, now: &Sensors, phase: Phase) {
         self.phase = phase;
         self.since = now.time;
-        if let Phase::Swing { foot, .. } | Phase::Close { foot, .. } = phase {
+        if let Phase::Swing { foot, .. } | Phase::Close { foot, .. } | Phase::Draw { foot, .. } =
+            phase
+        {
             self.from = Self::sole(now, foot);
         }
     }
@@ -311,6 +319,11 @@ impl Step {
                 }
                 let other = 1 - over;
                 let [a, b] = [Self::sole(now, over)[0], Self::sole(now, other)[0]];
+                if elapsed > STUCK && now.feet[over].touching() {
+                    let to = b + 0.5 * (a - b);
+                    self.begin(now, Phase::Draw { foot: other, to });
+                    return;
+                }
                 let off = (now.capture_point - a).abs();
                 // The longer it takes, the less exactly: in the end the sole is enough.
                 let [rear, front] = Self::ends(now, over);
@@ -338,6 +351,18 @@ impl Step {
                     }
                 }
             }
+            Phase::Draw { foot, .. } => {
+                if elapsed > 0.7 * DRAW && now.feet[foot].touching() {
+                    let [a, b] = [Self::sole(now, 0)[0], Self::sole(now, 1)[0]];
+                    let second = (now.capture_point - b).abs() < (now.capture_point - a).abs();
+                    self.begin(
+                        now,
+                        Phase::Catch {
+                            over: usize::from(second),
+                        },
+                    );
+                }
+            }
             Phase::Settle => {
                 if strayed {
                     self.begin_swing(now);
@@ -352,7 +377,7 @@ impl Step {
         let g = &self.spec.gains;
         let c = now.com[0];
         let (rear, front) = match self.phase {
-            Phase::Swing { foot, .. } | Phase::Close { foot, .. } => {
+            Phase::Swing { foot, .. } | Phase::Close { foot, .. } | Phase::Draw { foot, .. } => {
                 Self::ends(now, 1 - foot).into()
             }
             Phase::Catch { .. } | Phase::Settle => now
@@ -392,6 +417,10 @@ impl Step {
                 let to = [a, b][over];
                 let swing = self.swing(now, foot, to, self.spec.close_time, self.spec.close_lift);
                 (to, Some(swing), 0.0)
+            }
+            Phase::Draw { foot, to } => {
+                let swing = self.swing(now, foot, to, DRAW, self.spec.close_lift);
+                ([a, b][1 - foot], Some(swing), 0.0)
             }
             Phase::Settle => (0.5 * (a + b), None, 0.0),
         };
