@@ -9,20 +9,18 @@
 
 use std::sync::Arc;
 
+use aplomb_framework::Result;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::controller::Controller;
-use aplomb_framework::kinematics::Kinematics;
 use aplomb_framework::model::Model;
 use aplomb_framework::registry::Spec;
 use aplomb_framework::sensors::Sensors;
-use aplomb_framework::state::State;
-use aplomb_framework::{Result, simulation};
 use serde::{Deserialize, Serialize};
 
 use crate::gains::Gains;
-use crate::momentum::{Formulation, Momentum, Reference};
-use crate::servo::Servo;
-use crate::target::{NamedAngles, bounded, overlay};
+use crate::momentum::Formulation;
+use crate::target::{NamedAngles, bounded};
+use crate::upright::Upright;
 
 /// How fast the reference centre of mass moves, m/s.
 const GLIDE: f64 = 0.3;
@@ -63,15 +61,9 @@ impl Default for BalanceSpec {
 #[derive(Debug, Clone)]
 pub struct Balance {
     contract: Contract,
-    momentum: Momentum,
-    reference: Reference,
+    upright: Upright,
     com_ahead: f64,
     climb: Option<f64>,
-    /// Height of the centre of mass in the reference pose, m.
-    height: f64,
-    servo: Servo,
-    /// Of the last step, s.
-    time: f64,
 }
 
 impl Spec for BalanceSpec {
@@ -79,47 +71,23 @@ impl Spec for BalanceSpec {
 
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
         let place = contract.name.clone();
-        self.gains.validate(&place)?;
+        let upright = Upright::new(
+            &place,
+            model,
+            self.formulation,
+            self.gains,
+            &self.pose,
+            &self.joint_weights,
+        )?;
         bounded(&place, "com_ahead", self.com_ahead, -0.2, 0.2)?;
         bounded(&place, "climb", self.climb.unwrap_or(1.0), 0.01, 10.0)?;
-        let mut pose = vec![0.0; model.joint_count()];
-        overlay(model, &self.pose, "pose", [-7.0, 7.0], &mut pose)?;
-        let mut weights = vec![1.0; model.joint_count()];
-        overlay(
-            model,
-            &self.joint_weights,
-            "joint_weights",
-            [1e-3, 1e3],
-            &mut weights,
-        )?;
         Ok(Box::new(Balance {
-            momentum: Momentum::new(model, self.formulation, self.gains, weights),
-            height: com_height(model, &pose),
-            reference: Reference {
-                com: [0.0; 2],
-                com_velocity: [0.0; 2],
-                rates: vec![0.0; pose.len()],
-                pose,
-                pitch: 0.0,
-                swing: None,
-            },
+            upright,
             com_ahead: self.com_ahead,
             climb: self.climb,
-            servo: Servo::new(model, 0.5, 1.0),
-            time: 0.0,
             contract,
         }))
     }
-}
-
-/// Height of the centre of mass above the lowest point of a pose with the root upright, m.
-pub(crate) fn com_height(model: &Model, pose: &[f64]) -> f64 {
-    let mut state = State::standing(model);
-    state.q[3..].copy_from_slice(pose);
-    simulation::put_on_ground(model, &mut state, 0.0);
-    let mut kinematics = Kinematics::new(model);
-    kinematics.update(model, &state);
-    kinematics.com[1]
 }
 
 impl Controller for Balance {
@@ -128,34 +96,28 @@ impl Controller for Balance {
     }
 
     fn enter(&mut self, now: &Sensors) {
-        self.momentum.reset();
-        self.reference.com = now.com;
+        self.upright.enter(now);
         if let Some([rear, front]) = now.base_of_support {
-            let x = &mut self.reference.com[0];
+            let x = &mut self.upright.reference.com[0];
             *x = x.clamp(rear, front.max(rear));
         }
-        self.time = now.time;
     }
 
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
         if let Some(centre) = now.support_centre() {
             // Glides there, so that taking over from another stance is no jerk.
-            let passed = (now.time - self.time).clamp(0.0, 0.1);
+            let passed = self.upright.passed(now);
             let goal = centre + self.com_ahead;
-            let x = self.reference.com[0];
+            let [x, y] = self.upright.reference.com;
             let step = GLIDE * passed;
-            let top = now.ground + self.height;
+            let top = now.ground + self.upright.height;
             let y = match self.climb {
-                Some(climb) => top.min(self.reference.com[1] + climb * passed),
+                Some(climb) => top.min(y + climb * passed),
                 None => top,
             };
-            self.reference.com = [x + (goal - x).clamp(-step, step), y];
+            self.upright.reference.com = [x + (goal - x).clamp(-step, step), y];
         }
-        self.time = now.time;
-        let on_ground = now.base_of_support.is_some();
-        if !(on_ground && self.momentum.torques(now, &self.reference, torques)) {
-            self.servo.track(now, &self.reference.pose, 1.0, torques);
-        }
+        self.upright.act(now, torques);
     }
 
     fn clone_box(&self) -> Box<dyn Controller> {
@@ -163,6 +125,6 @@ impl Controller for Balance {
     }
 
     fn reference_com(&self) -> Option<f64> {
-        Some(self.reference.com[0])
+        Some(self.upright.reference.com[0])
     }
 }

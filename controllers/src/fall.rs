@@ -147,9 +147,8 @@ impl Controller for Fall {
     }
 
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
-        let down = !now.only_feet_support() && now.contacts.iter().any(|c| c.supported);
         let pitch = now.trunk_pitch();
-        if self.phase == 0 && down {
+        if self.phase == 0 && now.is_down() {
             self.begin_phase(now, 1);
         } else if self.phase == 0 && pitch.abs() > 0.8 && (pitch < 0.0) != self.is_forward {
             self.is_forward = !self.is_forward;

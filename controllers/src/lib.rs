@@ -10,7 +10,8 @@
 //! | [`pose`] | `pose` | a state machine of target poses, as data |
 //!
 //! They share [`momentum`] (momentum control with its [`gains`]), [`problem`] and [`quadratic_program`] (its
-//! program and solver), [`servo`] (joint servos) and [`target`] (poses by joint name).
+//! program and solver), [`servo`] (joint servos) and [`target`] (poses by joint name); `upright` is what
+//! balancing and stepping have in common.
 
 pub mod balance;
 pub mod fall;
@@ -24,6 +25,7 @@ pub mod servo;
 pub mod stance;
 pub mod step;
 pub mod target;
+mod upright;
 
 use aplomb_framework::registry::Registry;
 

@@ -12,6 +12,8 @@
 //! Fails when the capture point runs further than a leg reaches, when the foot catches on the
 //! ground, or when the trunk has tipped over; its expected performance says so.
 
+mod aim;
+
 use std::sync::Arc;
 
 use aplomb_framework::Result;
@@ -22,11 +24,11 @@ use aplomb_framework::registry::Spec;
 use aplomb_framework::sensors::Sensors;
 use serde::{Deserialize, Serialize};
 
-use crate::balance::com_height;
 use crate::gains::Gains;
-use crate::momentum::{Formulation, Momentum, Reference, Swing, sole_centre};
-use crate::servo::{Servo, smoothstep};
-use crate::target::{NamedAngles, bounded, overlay};
+use crate::momentum::Formulation;
+use crate::target::{NamedAngles, bounded};
+use crate::upright::Upright;
+use aim::{beyond, ends, nearer, sole};
 
 /// How a foot is put down in one direction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -111,13 +113,9 @@ enum Phase {
 pub struct Step {
     contract: Contract,
     spec: StepSpec,
-    momentum: Momentum,
-    reference: Reference,
-    /// Height of the centre of mass in the reference pose, m.
-    height: f64,
+    upright: Upright,
     /// Length of a leg with half of the pelvis, for the height of a wide stance, m.
     leg: f64,
-    servo: Servo,
     phase: Phase,
     /// When the phase began, s.
     since: f64,
@@ -127,7 +125,6 @@ pub struct Step {
     over: f64,
     /// Protective swings so far.
     swings: u32,
-    time: f64,
 }
 
 impl Spec for StepSpec {
@@ -135,7 +132,14 @@ impl Spec for StepSpec {
 
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
         let place = contract.name.clone();
-        self.gains.validate(&place)?;
+        let upright = Upright::new(
+            &place,
+            model,
+            Formulation::Inequality,
+            self.gains.clone(),
+            &self.pose,
+            &self.joint_weights,
+        )?;
         for (name, p) in [("forward", &self.forward), ("backward", &self.backward)] {
             let at = format!("{place}: {name}");
             bounded(&at, "swing_time", p.swing_time, 0.1, 1.0)?;
@@ -165,36 +169,14 @@ impl Spec for StepSpec {
             2.0,
             2.0,
         )?;
-        let mut pose = vec![0.0; model.joint_count()];
-        overlay(model, &self.pose, "pose", [-7.0, 7.0], &mut pose)?;
-        let mut weights = vec![1.0; model.joint_count()];
-        overlay(
-            model,
-            &self.joint_weights,
-            "joint_weights",
-            [1e-3, 1e3],
-            &mut weights,
-        )?;
-        let height = com_height(model, &pose);
         Ok(Box::new(Step {
-            momentum: Momentum::new(model, Formulation::Inequality, self.gains.clone(), weights),
-            height,
+            upright,
             leg: model.standing_height(),
-            reference: Reference {
-                com: [0.0; 2],
-                com_velocity: [0.0; 2],
-                rates: vec![0.0; pose.len()],
-                pose,
-                pitch: 0.0,
-                swing: None,
-            },
-            servo: Servo::new(model, 0.5, 1.0),
             phase: Phase::Settle,
             since: 0.0,
             from: [0.0; 2],
             over: 0.0,
             swings: 0,
-            time: 0.0,
             spec: self,
             contract,
         }))
@@ -202,31 +184,19 @@ impl Spec for StepSpec {
 }
 
 impl Step {
-    fn sole(now: &Sensors, foot: usize) -> [f64; 2] {
-        let f = &now.model.feet[foot];
-        now.kinematics.point(f.link, sole_centre(f))
-    }
-
-    /// Rear and front end of a foot's sole, world x, m.
-    fn ends(now: &Sensors, foot: usize) -> [f64; 2] {
-        let f = &now.model.feet[foot];
-        let [a, b] = [f.heel, f.toe].map(|p| now.kinematics.point(f.link, p)[0]);
-        [a.min(b), a.max(b)]
-    }
-
     fn begin(&mut self, now: &Sensors, phase: Phase) {
         self.phase = phase;
         self.since = now.time;
         if let Phase::Swing { foot, .. } | Phase::Close { foot, .. } | Phase::Draw { foot, .. } =
             phase
         {
-            self.from = Self::sole(now, foot);
+            self.from = sole(now, foot);
         }
     }
 
     /// Begins a step towards where the capture point has gone.
     fn begin_swing(&mut self, now: &Sensors) {
-        let [a, b] = [Self::sole(now, 0)[0], Self::sole(now, 1)[0]];
+        let [a, b] = [sole(now, 0)[0], sole(now, 1)[0]];
         let forward = now.capture_point > 0.5 * (a + b);
         // The foot that is behind; of two that are beside each other, the one that carries less.
         let ahead = if forward { a - b } else { b - a };
@@ -243,70 +213,18 @@ impl Step {
         self.begin(now, Phase::Swing { foot, forward });
     }
 
-    /// Where the sole's middle of a swinging foot is to land, world x, m.
-    fn landing(&self, now: &Sensors, foot: usize, forward: bool) -> f64 {
-        let p = if forward {
-            &self.spec.forward
-        } else {
-            &self.spec.backward
-        };
-        let [rear, front] = Self::ends(now, 1 - foot);
-        let edge = if forward { front } else { rear };
-        let left = (p.swing_time - (now.time - self.since)).max(0.0);
-        let run =
-            ((now.capture_point - edge) * (now.pendulum_rate() * left).exp()).clamp(-2.0, 2.0);
-        let sign = if forward { 1.0 } else { -1.0 };
-        let stance = Self::sole(now, 1 - foot)[0];
-        // Who has to step again has stepped too short.
-        let longer = LONGER * f64::from(self.swings.saturating_sub(1).min(5));
-        let x = edge + p.reach * run + sign * (p.beyond + longer);
-        stance + (x - stance).clamp(-self.spec.longest, self.spec.longest)
-    }
-
-    /// The swing's reference on the way from where it began to `to`.
-    fn swing(&self, now: &Sensors, foot: usize, to: f64, time: f64, lift: f64) -> Swing {
-        let s = (now.time - self.since) / time;
-        let eased = smoothstep(s);
-        let rate = if (0.0..1.0).contains(&s) {
-            6.0 * s * (1.0 - s) / time
-        } else {
-            0.0
-        };
-        let from = self.from;
-        // Up and down again, and on down until the ground is met.
-        let start = (from[1] - now.ground).max(0.0) * (1.0 - eased);
-        let (y, vy) = if s < 1.0 {
-            let up = 4.0 * s * (1.0 - s);
-            (lift * up + start, lift * 4.0 * (1.0 - 2.0 * s) / time)
-        } else {
-            (-0.3 * (s - 1.0) * time, -0.3)
-        };
-        Swing {
-            foot,
-            position: [from[0] + eased * (to - from[0]), now.ground + y],
-            velocity: [rate * (to - from[0]), vy],
-            angle: 0.0,
-            stiffness: self.spec.swing_stiffness,
-            weight: self.spec.swing_weight,
-        }
-    }
-
     /// Moves from phase to phase.
     fn advance(&mut self, now: &Sensors) {
         let elapsed = now.time - self.since;
         // Balanced over the very end of the support is no place to stay.
         let part = (elapsed / LEANING).min(1.0);
         let margin = self.spec.margin - part * (self.spec.margin + INSIDE);
-        let strayed = now.base_of_support.is_some_and(|[rear, front]| {
-            now.capture_point > front + margin || now.capture_point < rear - margin
-        });
+        let strayed = now
+            .base_of_support
+            .is_some_and(|support| beyond(now.capture_point, support, margin));
         match self.phase {
             Phase::Swing { foot, forward } => {
-                let p = if forward {
-                    &self.spec.forward
-                } else {
-                    &self.spec.backward
-                };
+                let p = self.placement(forward);
                 let landed = now.feet[foot].touching() && elapsed > 0.6 * p.swing_time;
                 if landed {
                     self.begin(now, Phase::Catch { over: foot });
@@ -318,7 +236,7 @@ impl Step {
                     return;
                 }
                 let other = 1 - over;
-                let [a, b] = [Self::sole(now, over)[0], Self::sole(now, other)[0]];
+                let [a, b] = [sole(now, over)[0], sole(now, other)[0]];
                 if elapsed > STUCK && now.feet[over].touching() {
                     let to = b + 0.5 * (a - b);
                     self.begin(now, Phase::Draw { foot: other, to });
@@ -326,7 +244,7 @@ impl Step {
                 }
                 let off = (now.capture_point - a).abs();
                 // The longer it takes, the less exactly: in the end the sole is enough.
-                let [rear, front] = Self::ends(now, over);
+                let [rear, front] = ends(now, over);
                 let enough = (0.5 * (front - rear) - INSIDE).max(self.spec.close_within);
                 let within = self.spec.close_within + part * (enough - self.spec.close_within);
                 if off < within && now.feet[over].touching() {
@@ -338,12 +256,10 @@ impl Step {
                 }
             }
             Phase::Close { foot, over } => {
-                let [rear, front] = Self::ends(now, over);
-                let m = self.spec.margin;
-                if now.capture_point > front + m || now.capture_point < rear - m {
+                if beyond(now.capture_point, ends(now, over), self.spec.margin) {
                     self.begin_swing(now);
                 } else if elapsed > 0.7 * self.spec.close_time && now.feet[foot].touching() {
-                    let apart = Self::sole(now, foot)[0] - Self::sole(now, over)[0];
+                    let apart = sole(now, foot)[0] - sole(now, over)[0];
                     if apart.abs() < 0.04 {
                         self.begin(now, Phase::Settle);
                     } else {
@@ -353,14 +269,7 @@ impl Step {
             }
             Phase::Draw { foot, .. } => {
                 if elapsed > 0.7 * DRAW && now.feet[foot].touching() {
-                    let [a, b] = [Self::sole(now, 0)[0], Self::sole(now, 1)[0]];
-                    let second = (now.capture_point - b).abs() < (now.capture_point - a).abs();
-                    self.begin(
-                        now,
-                        Phase::Catch {
-                            over: usize::from(second),
-                        },
-                    );
+                    self.begin(now, Phase::Catch { over: nearer(now) });
                 }
             }
             Phase::Settle => {
@@ -370,72 +279,6 @@ impl Step {
             }
         }
     }
-
-    /// A reference that asks for no more acceleration than the pressure under the carrying feet can
-    /// give, and that of bending: what is braked by bending the trunk has to be paid back.
-    fn attainable(&self, now: &Sensors) -> f64 {
-        let g = &self.spec.gains;
-        let c = now.com[0];
-        let (rear, front) = match self.phase {
-            Phase::Swing { foot, .. } | Phase::Close { foot, .. } | Phase::Draw { foot, .. } => {
-                Self::ends(now, 1 - foot).into()
-            }
-            Phase::Catch { .. } | Phase::Settle => now
-                .base_of_support
-                .unwrap_or([f64::NEG_INFINITY, f64::INFINITY])
-                .into(),
-        };
-        let (rear, front) = (rear - self.spec.bend, front + self.spec.bend);
-        let wish = g.kl * (self.over - c) - g.dl * now.com_velocity[0];
-        let rate = now.pendulum_rate().powi(2);
-        let given = wish.max(rate * (c - front)).min(rate * (c - rear));
-        c + given / g.kl.max(1.0)
-    }
-
-    /// Sets the reference for the phase.
-    fn aim(&mut self, now: &Sensors) {
-        let passed = (now.time - self.time).clamp(0.0, 0.1);
-        let [a, b] = [Self::sole(now, 0)[0], Self::sole(now, 1)[0]];
-        let (goal, swing, lean) = match self.phase {
-            Phase::Swing { foot, forward } => {
-                let p = if forward {
-                    &self.spec.forward
-                } else {
-                    &self.spec.backward
-                };
-                let to = self.landing(now, foot, forward);
-                let swing = self.swing(now, foot, to, p.swing_time, p.lift);
-                (Self::sole(now, 1 - foot)[0], Some(swing), p.lean)
-            }
-            Phase::Catch { over } => {
-                // The longer it takes, the harder it leans: a wide stance pulls back.
-                let foot = [a, b][over];
-                let lean = (now.time - self.since) / LEANING;
-                (foot + lean * (foot - now.com[0]), None, 0.0)
-            }
-            Phase::Close { foot, over } => {
-                let to = [a, b][over];
-                let swing = self.swing(now, foot, to, self.spec.close_time, self.spec.close_lift);
-                (to, Some(swing), 0.0)
-            }
-            Phase::Draw { foot, to } => {
-                let swing = self.swing(now, foot, to, DRAW, self.spec.close_lift);
-                ([a, b][1 - foot], Some(swing), 0.0)
-            }
-            Phase::Settle => (0.5 * (a + b), None, 0.0),
-        };
-        let step = self.spec.glide * passed;
-        self.over += (goal - self.over).clamp(-step, step);
-        // A wide stance is a low one.
-        let spread = 0.5 * (a - b);
-        let drop = self.leg - (self.leg * self.leg - spread * spread).max(0.0).sqrt();
-        let top = now.ground + self.height - drop;
-        let y = top.min(self.reference.com[1] + self.spec.climb * passed);
-        self.reference.com = [self.attainable(now), y];
-        self.reference.com_velocity[0] = now.com_velocity[0];
-        self.reference.pitch = lean;
-        self.reference.swing = swing;
-    }
 }
 
 impl Controller for Step {
@@ -444,31 +287,21 @@ impl Controller for Step {
     }
 
     fn enter(&mut self, now: &Sensors) {
-        self.momentum.reset();
+        self.upright.enter(now);
         self.over = now.com[0];
         self.swings = 0;
-        self.reference.com = now.com;
-        self.time = now.time;
-        let outside = now
-            .base_of_support
-            .is_none_or(|[rear, front]| now.capture_point > front || now.capture_point < rear);
-        if outside {
+        let support = now.base_of_support;
+        if support.is_none_or(|support| beyond(now.capture_point, support, 0.0)) {
             self.begin_swing(now);
         } else {
-            let [a, b] = [Self::sole(now, 0)[0], Self::sole(now, 1)[0]];
-            let over = usize::from((now.capture_point - b).abs() < (now.capture_point - a).abs());
-            self.begin(now, Phase::Catch { over });
+            self.begin(now, Phase::Catch { over: nearer(now) });
         }
     }
 
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
         self.advance(now);
         self.aim(now);
-        self.time = now.time;
-        let on_ground = now.base_of_support.is_some();
-        if !(on_ground && self.momentum.torques(now, &self.reference, torques)) {
-            self.servo.track(now, &self.reference.pose, 1.0, torques);
-        }
+        self.upright.act(now, torques);
     }
 
     fn clone_box(&self) -> Box<dyn Controller> {

@@ -10,7 +10,7 @@ use crate::sensors::{Posture, Sensors};
 use crate::supervisor::Supervisor;
 
 /// s for which a character must stand to be called standing.
-const STANDING_FOR: f64 = 1.0;
+pub const STANDING_FOR: f64 = 1.0;
 
 /// A character's mind and what is known of its run so far.
 #[derive(Debug, Clone)]
@@ -90,15 +90,7 @@ impl Actor {
         } else {
             self.standing_since = None;
         }
-        let lying = matches!(
-            now.posture,
-            Posture::Sitting
-                | Posture::Supine
-                | Posture::Prone
-                | Posture::Kneeling
-                | Posture::HandsAndFeet
-        );
-        if lying && !self.down {
+        if now.is_down() && !self.down {
             self.down = true;
             note(EventKind::Fell);
         } else if self.down && self.has_stood(time) {

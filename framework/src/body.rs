@@ -11,7 +11,7 @@ use rapier2d::geometry::ContactPair;
 use rapier2d::prelude::*;
 
 use crate::kinematics::{Kinematics, turned};
-use crate::model::{Model, Shape};
+use crate::model::{Model, Point, Shape};
 use crate::sensors::{FootContact, LinkContact, Sensors};
 use crate::state::{State, wrapped};
 
@@ -32,6 +32,8 @@ pub struct Body {
     links: Vec<RigidBodyHandle>,
     colliders: Vec<ColliderHandle>,
     joints: Vec<ImpulseJointHandle>,
+    /// See [`Model::knee`], one a link.
+    knees: Vec<Option<Point>>,
 }
 
 /// A world vector in the engine's type.
@@ -66,6 +68,7 @@ impl Body {
             links: Vec::with_capacity(model.links.len()),
             colliders: Vec::with_capacity(model.links.len()),
             joints: Vec::with_capacity(model.joint_count()),
+            knees: (0..model.links.len()).map(|l| model.knee(l)).collect(),
         };
         for (link, motion) in model.links.iter().zip(&kinematics.links) {
             let rigid = RigidBodyBuilder::dynamic()
@@ -132,7 +135,7 @@ impl Body {
                 0.5 * (f.heel[0] + f.toe[0])
             });
             let mut contact = LinkContact::default();
-            let knee = self.model.knee(i);
+            let knee = self.knees[i];
             let mut sole = FootContact::default();
             let mut moment = 0.0;
             for pair in narrow_phase.contact_pairs_with(*collider) {

@@ -195,16 +195,23 @@ impl Sensors {
     /// Whether it is supported, and by nothing but feet.
     #[must_use]
     pub fn only_feet_support(&self) -> bool {
-        let mut any = false;
-        for (i, c) in self.contacts.iter().enumerate() {
-            if c.supported {
-                if !self.model.is_foot(i) {
-                    return false;
-                }
-                any = true;
-            }
-        }
-        any
+        self.contacts.iter().any(|c| c.supported) && !self.is_down()
+    }
+
+    /// Whether anything but feet supports it.
+    #[must_use]
+    pub fn is_down(&self) -> bool {
+        let mut links = self.contacts.iter().enumerate();
+        links.any(|(i, c)| c.supported && !self.model.is_foot(i))
+    }
+
+    /// Distance between the foremost and the rearmost ankle, m.
+    #[must_use]
+    pub fn feet_apart(&self) -> f64 {
+        let feet = self.model.feet.iter();
+        let x = feet.map(|f| self.kinematics.links[f.link].origin[0]);
+        let most = x.clone().fold(f64::NEG_INFINITY, f64::max);
+        most - x.fold(f64::INFINITY, f64::min)
     }
 
     /// Recomputes everything that follows from state, links and feet. Called by whoever senses.

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-pub use crate::actor::{Actor, Outcome};
+pub use crate::actor::{Actor, Outcome, STANDING_FOR};
 use crate::controller::Controller;
 use crate::error::{Error, Result};
 use crate::event::{Event, EventKind};

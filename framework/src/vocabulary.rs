@@ -161,11 +161,6 @@ pub(crate) const SCALARS: &[Scalar] = &[
         "feet_apart",
         "m",
         "distance between the foremost and the rearmost ankle",
-        |s| {
-            let x = |f: &crate::model::Foot| s.kinematics.links[f.link].origin[0];
-            let most = s.model.feet.iter().map(x).fold(f64::NEG_INFINITY, f64::max);
-            let least = s.model.feet.iter().map(x).fold(f64::INFINITY, f64::min);
-            most - least
-        },
+        Sensors::feet_apart,
     ),
 ];

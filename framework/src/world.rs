@@ -30,9 +30,11 @@ pub struct Settings {
     pub contact_damping: f64,
     /// Solver iterations a step.
     pub iterations: usize,
-    /// Largest torques of all muscles, relative to the character's. Controllers do not know.
+    /// Largest torques of all muscles, relative to the character's. Controllers plan with the
+    /// character's own.
     pub torque: f64,
-    /// Mass and inertia of all links, relative to the character's. Controllers do not know.
+    /// Mass and inertia of all links, relative to the character's. Momentum control plans with the
+    /// character's own.
     pub mass: f64,
 }
 

@@ -7,8 +7,8 @@ use aplomb_framework::simulation::Simulation;
 use aplomb_framework::supervisor::Supervisor;
 use aplomb_framework::trajectory::EventKind;
 
-/// Impacts are averaged over this time, s (a 1 ms peak is the solver's, not the body's).
-const FILTER: f64 = 0.01;
+use crate::impact::Impact;
+
 /// s from the push within which the character should lie still.
 const LONGEST: f64 = 2.6;
 /// m/s; a slower centre of mass is still.
@@ -55,20 +55,18 @@ pub fn land(start: &Simulation, mind: &Supervisor, forward: bool) -> Landing {
     run.set_mind(0, mind.clone());
     let begun = run.time();
     let dt = run.world().settings().dt;
-    let mix = dt / FILTER;
+    let mut impact = Impact::new(dt);
     let mut landing = Landing::default();
     let mut first: Option<bool> = None;
-    let (mut head, mut trunk, mut head_before, mut quiet) = (0.0, 0.0, 0.0, 0.0);
+    let (mut head_before, mut quiet) = (0.0, 0.0);
     let mut seen = run.events().len();
     while run.time() < begun + LONGEST && !landing.settled {
         run.step();
         let now = run.sensors(0);
         let model = &now.model;
-        let force = |link: usize| now.contacts[link].force[0].hypot(now.contacts[link].force[1]);
-        head += mix * (force(model.head) - head);
-        trunk += mix * (force(model.trunk) + force(0) - trunk);
-        landing.head_force = landing.head_force.max(head);
-        landing.trunk_force = landing.trunk_force.max(trunk);
+        impact.observe(now);
+        landing.head_force = landing.head_force.max(impact.head);
+        landing.trunk_force = landing.trunk_force.max(impact.trunk);
         if now.contacts[model.head].touching && landing.head_speed == 0.0 {
             landing.head_speed = head_before;
         }
@@ -77,8 +75,7 @@ pub fn land(start: &Simulation, mind: &Supervisor, forward: bool) -> Landing {
         if first.is_none() {
             first = first_touch(now, forward);
         }
-        let mut others = (0..model.links.len()).filter(|l| !model.is_foot(*l));
-        landing.fell |= others.any(|l| now.contacts[l].supported);
+        landing.fell |= now.is_down();
         let speed = now.com_velocity[0].hypot(now.com_velocity[1]);
         quiet = if landing.fell && speed < STILL {
             quiet + dt

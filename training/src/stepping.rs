@@ -60,23 +60,10 @@ pub fn step(start: &Simulation, mind: &Supervisor) -> Stepped {
         steps += 1.0;
         all.bent += now.trunk_pitch().powi(2);
         all.motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
-        let down = now.contacts.iter().enumerate();
-        if down
-            .into_iter()
-            .any(|(i, c)| c.supported && !now.model.is_foot(i))
-        {
+        if now.is_down() {
             break;
         }
-        let feet: Vec<f64> = now
-            .model
-            .feet
-            .iter()
-            .map(|f| now.kinematics.links[f.link].origin[0])
-            .collect();
-        let apart = feet
-            .iter()
-            .fold(0.0, |a: f64, x| a.max((x - feet[0]).abs()));
-        steady = if now.stands() && apart < 0.06 {
+        steady = if now.stands() && now.feet_apart() < 0.06 {
             steady + dt
         } else {
             0.0
