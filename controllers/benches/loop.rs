@@ -6,7 +6,6 @@ use std::sync::Arc;
 use aplomb_controllers::gains::Gains;
 use aplomb_controllers::momentum::{Formulation, Momentum, Reference};
 use aplomb_controllers::registry;
-use aplomb_framework::contract::Contract;
 use aplomb_framework::controller::Controller;
 use aplomb_framework::dynamics::Dynamics;
 use aplomb_framework::file::Source;
@@ -89,67 +88,16 @@ fn quadratic_program(bencher: Bencher, formulation: &str) {
     bencher.bench_local(|| momentum.torques(black_box(&now), &reference, &mut torques));
 }
 
-/// Eight controllers with conditions like the humanoid's: the shipped ones, and such as step, sit
-/// and rise would have.
+/// The first seven of the humanoid's controllers, and the one that accepts every state.
 fn pool_of_eight(model: &Arc<Model>) -> Supervisor {
     let shipped = repertoire::load("humanoid", &registry(), model).unwrap();
-    let like = |name: &str, from: &str| -> Box<dyn Controller> {
-        let old = shipped
-            .controllers()
-            .find(|c| c.contract().name == from)
-            .unwrap();
-        let contract = Contract {
-            name: name.to_owned(),
-            commands: Vec::new(),
-            ..old.contract().clone()
-        };
-        Box::new(Member {
-            contract,
-            inner: old.clone_box(),
-        })
-    };
-    let mut pool: Vec<Box<dyn Controller>> = vec![
-        like("step", "balance"),
-        like("recover", "fall"),
-        like("crouch", "balance"),
-        like("roll", "fall"),
-    ];
-    let lead: Vec<_> = shipped.controllers().map(Controller::clone_box).collect();
-    pool.extend(lead);
-    pool.truncate(7);
-    if !pool.iter().any(|c| c.contract().name == "rest") {
-        pool.push(
-            shipped
-                .controllers()
-                .find(|c| c.contract().name == "rest")
-                .unwrap()
-                .clone_box(),
-        );
-    }
+    let rest = shipped
+        .controllers()
+        .filter(|c| c.contract().name == "rest");
+    let pool = shipped.controllers().take(7).chain(rest);
+    let pool: Vec<_> = pool.map(Controller::clone_box).collect();
     assert_eq!(pool.len(), 8);
     Supervisor::new("eight", pool, "rest").unwrap()
-}
-
-/// A controller under another contract.
-#[derive(Debug, Clone)]
-struct Member {
-    contract: Contract,
-    inner: Box<dyn Controller>,
-}
-
-impl Controller for Member {
-    fn contract(&self) -> &Contract {
-        &self.contract
-    }
-    fn enter(&mut self, now: &Sensors) {
-        self.inner.enter(now);
-    }
-    fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
-        self.inner.act(now, torques);
-    }
-    fn clone_box(&self) -> Box<dyn Controller> {
-        Box::new(self.clone())
-    }
 }
 
 #[divan::bench(sample_size = 1000)]
@@ -168,7 +116,9 @@ fn step_balancing(bencher: Bencher) {
 
 #[divan::bench(sample_count = 20)]
 fn step_lying(bencher: Bencher) {
-    let start = after(5.0, &scenario(1.5, 0.0));
+    let mut limp = scenario(1.5, 0.0);
+    limp.characters[0].repertoire = Some("limp".to_owned());
+    let start = after(5.0, &limp);
     assert_eq!(
         (start.outcome(0).posture, &*start.outcome(0).active),
         (Posture::Supine, "rest")

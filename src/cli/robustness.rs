@@ -55,9 +55,8 @@ pub(super) struct RobustnessArgs {
     #[arg(long, value_name = "N", default_value = "0",
           value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
     seed: u64,
-    /// Number of threads; changes no result [default: one a core]
-    #[arg(long, value_name = "N", value_parser = whole(1, 256), allow_negative_numbers = true)]
-    jobs: Option<u64>,
+    #[command(flatten)]
+    jobs: work::Jobs,
     /// Prints one JSON value instead of text
     #[arg(long)]
     json: bool,
@@ -102,7 +101,10 @@ impl RobustnessArgs {
         let chosen = self.choose(&all)?;
         let stop = work::stop_on_interrupt()?;
         let begun = Instant::now();
-        let rows = work::threads(self.jobs)?.install(|| self.measure(&chosen, &stop))?;
+        let rows = self
+            .jobs
+            .threads()?
+            .install(|| self.measure(&chosen, &stop))?;
         let interrupted = stop.load(Ordering::Relaxed);
         if interrupted {
             message(format_args!("interrupted: the table is not complete"));

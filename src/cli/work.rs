@@ -4,12 +4,25 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result};
+use clap::Args;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// So many threads, or one a core.
-pub(super) fn threads(jobs: Option<u64>) -> Result<ThreadPool> {
-    let threads = ThreadPoolBuilder::new().num_threads(jobs.map_or(0, |j| j as usize));
-    threads.build().context("cannot start the threads")
+use super::values::whole;
+
+/// How many threads work.
+#[derive(Debug, Args)]
+pub(super) struct Jobs {
+    /// Number of threads; changes no result [default: one a core]
+    #[arg(long, value_name = "N", value_parser = whole(1, 256), allow_negative_numbers = true)]
+    jobs: Option<u64>,
+}
+
+impl Jobs {
+    /// So many threads, or one a core.
+    pub(super) fn threads(&self) -> Result<ThreadPool> {
+        let threads = ThreadPoolBuilder::new().num_threads(self.jobs.map_or(0, |j| j as usize));
+        threads.build().context("cannot start the threads")
+    }
 }
 
 /// A flag that the first Ctrl-C raises; the second ends the program at once.

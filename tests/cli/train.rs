@@ -13,20 +13,7 @@ const REPERTOIRE: &str = r#"(name: "tuck", fallback: "rest", controllers: [
     File("tuck.ron"), File("poses/bow.ron"), File("skills/rest.ron"),
 ])"#;
 
-const TUCK: &str = r#"(
-    kind: "pose",
-    contract: (
-        name: "tuck", weight: 5,
-        precondition: All([
-            Posture([supine, prone, sitting]), Within(feature: "angle.knee_r", min: -0.6),
-        ]),
-        postcondition: All([
-            Posture([supine, prone, sitting]), Within(feature: "angle.knee_r", max: -0.8),
-        ]),
-        patience: 1.0,
-    ),
-    spec: (states: [(pose: {"knee": -0.9, "hip": 0.5}, duration: 0.4)]),
-)"#;
+const TUCK: &str = include_str!("../../training/src/skill/tuck.ron");
 
 const SEARCH: &str = "train poses tuck --repertoire r.ron --starts 2 --sigma 0.2 --seed 3";
 

@@ -9,6 +9,7 @@
 //! - [`rising`]: how well a controller brings a character that is down to its goal
 //! - [`stepping`]: how well a step takes pushes
 //! - [`falling`]: how well a falling controller protects
+//! - [`impact`]: how hard head and trunk are hit
 //! - [`exercise`]: which of the three a controller is measured by, and its score
 //! - [`improve`](mod@improve): skill → better controller file
 //! - [`journal`]: what a search has found out so far, on disk
@@ -27,6 +28,7 @@ pub mod cma_es;
 pub mod dimension;
 pub mod exercise;
 pub mod falling;
+pub mod impact;
 pub mod improve;
 pub mod journal;
 pub mod pushes;

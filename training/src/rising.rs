@@ -9,8 +9,8 @@ use aplomb_framework::simulation::Simulation;
 use aplomb_framework::supervisor::Supervisor;
 use aplomb_framework::trajectory::EventKind;
 
-/// Impacts are averaged over this time, s.
-const FILTER: f64 = 0.01;
+use crate::impact::Impact;
+
 /// s for which the character must stand to have risen.
 const STEADY: f64 = 0.3;
 /// s within which the goal is to be reached.
@@ -91,8 +91,9 @@ pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Go
         drop(run.command(0, &command.name));
     }
     let begun = run.time();
-    let mix = run.world().settings().dt / FILTER;
-    let (mut head, mut trunk, mut steady, mut kept) = (0.0, 0.0, 0.0, 0.0);
+    let dt = run.world().settings().dt;
+    let mut impact = Impact::new(dt);
+    let (mut steady, mut kept) = (0.0, 0.0);
     let mut all = Rising {
         reached: false,
         time: LONGEST,
@@ -106,12 +107,9 @@ pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Go
     while run.time() - begun < LONGEST {
         run.step();
         let now = run.sensors(0);
-        let dt = run.world().settings().dt;
-        let force = |link: usize| now.contacts[link].force[0].hypot(now.contacts[link].force[1]);
-        head += mix * (force(now.model.head) - head);
-        trunk += mix * (force(now.model.trunk) + force(0) - trunk);
-        all.head_force = all.head_force.max(head);
-        all.trunk_force = all.trunk_force.max(trunk);
+        impact.observe(now);
+        all.head_force = all.head_force.max(impact.head);
+        all.trunk_force = all.trunk_force.max(impact.trunk);
         all.motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
         steps += 1.0;
         all.nearest = f64::max(all.nearest, nearness(now, goal));

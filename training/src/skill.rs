@@ -91,21 +91,10 @@ pub(crate) mod tests {
     use super::*;
 
     /// A character that cannot stand and draws up its knees once it lies.
-    pub(crate) const TUCK: &str = r#"(name: "tuck", fallback: "rest", controllers: [
-        Here((
-            kind: "pose",
-            contract: (
-                name: "tuck", weight: 5,
-                precondition: All([
-                    Posture([supine, prone, sitting]), Within(feature: "angle.knee_r", min: -0.6),
-                ]),
-                postcondition: All([
-                    Posture([supine, prone, sitting]), Within(feature: "angle.knee_r", max: -0.8),
-                ]),
-                patience: 1.0,
-            ),
-            spec: (states: [(pose: {"knee": -0.9, "hip": 0.5}, duration: 0.4)]),
-        )),
+    pub(crate) const TUCK: &str = concat!(
+        r#"(name: "tuck", fallback: "rest", controllers: [Here("#,
+        include_str!("skill/tuck.ron"),
+        r#"),
         Here((
             kind: "pose",
             contract: (
@@ -116,7 +105,8 @@ pub(crate) mod tests {
             spec: (states: [(pose: {"knee": -0.9}, duration: 0.4)]),
         )),
         File("skills/rest.ron"),
-    ])"#;
+    ])"#
+    );
 
     /// The controllers of a repertoire in text, in a folder of their own.
     pub(crate) fn skills(text: &str) -> (tempfile::TempDir, Vec<Skill>) {

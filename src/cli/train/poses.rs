@@ -63,9 +63,8 @@ pub(in crate::cli) struct PosesArgs {
     #[arg(long, value_name = "S", default_value = "0.1",
           value_parser = number(0.001, 1.0, "of the ranges"), allow_negative_numbers = true)]
     sigma: f64,
-    /// Number of threads; changes no result [default: one a core]
-    #[arg(long, value_name = "N", value_parser = whole(1, 256), allow_negative_numbers = true)]
-    jobs: Option<u64>,
+    #[command(flatten)]
+    jobs: work::Jobs,
     /// The controller file that is written [default: CONTROLLER.ron]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -105,7 +104,7 @@ impl PosesArgs {
         check_writable(&journal::beside(&file))?;
         let stop = work::stop_on_interrupt()?;
         let begun = Instant::now();
-        let threads = work::threads(self.jobs)?;
+        let threads = self.jobs.threads()?;
         let found = threads.install(|| self.search(skill, &file, &stop))?;
         let interrupted = stop.load(Ordering::Relaxed);
         if interrupted {

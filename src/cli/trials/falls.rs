@@ -6,8 +6,8 @@
 use aplomb::framework::model::Model;
 use aplomb::framework::sensors::Sensors;
 use aplomb::framework::trajectory::EventKind;
+use aplomb::training::impact::Impact;
 
-use super::impact::Impact;
 use super::rising::Rising;
 
 /// m/s; a slower centre of mass falls the way it was pushed.

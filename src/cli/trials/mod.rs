@@ -4,7 +4,6 @@
 
 mod falls;
 mod falls_report;
-mod impact;
 mod plan;
 mod report;
 mod rising;
@@ -87,9 +86,8 @@ pub(super) struct TrialsArgs {
     /// Records the trial that --only names into a trajectory file
     #[arg(long, value_name = "FILE", requires = "only")]
     record: Option<PathBuf>,
-    /// Number of threads; changes no result [default: one a core]
-    #[arg(long, value_name = "N", value_parser = whole(1, 256), allow_negative_numbers = true)]
-    jobs: Option<u64>,
+    #[command(flatten)]
+    jobs: work::Jobs,
     /// Prints one JSON value instead of text
     #[arg(long)]
     json: bool,
@@ -151,7 +149,7 @@ impl TrialsArgs {
     }
 
     fn all(&self, plan: &Plan, stop: &AtomicBool) -> Result<Tally> {
-        let threads = work::threads(self.jobs)?;
+        let threads = self.jobs.threads()?;
         let bar = progress::bar(self.count, "trials");
         let take = |mut tally: Tally, index: u64| {
             if let Some(trial) = plan.run(index, stop)? {

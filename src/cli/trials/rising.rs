@@ -3,9 +3,7 @@
 //! whether it stands, whether it fell, every step → the time from down to standing.
 
 use aplomb::framework::sensors::Sensors;
-
-/// s for which it must stand without a break, as a run is judged.
-const STANDING_FOR: f64 = 1.0;
+use aplomb::framework::simulation::STANDING_FOR;
 
 /// Watches one trial. Asks what is sensed, not the run's events: a heap that comes down on its feet
 /// and rises from there has never fallen, so that the run does not note that it stood.

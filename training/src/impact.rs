@@ -2,25 +2,25 @@
 //!
 //! contact forces of every step → forces, low-pass filtered.
 
-use aplomb::framework::sensors::Sensors;
+use aplomb_framework::sensors::Sensors;
 
-/// s over which forces are averaged, as in the search for falls: a peak of one step is the
-/// solver's.
+/// s over which forces are averaged: a peak of one step is the solver's, not the body's.
 const FILTER: f64 = 0.01;
 
 /// Filtered forces of one character.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Impact {
+pub struct Impact {
     mix: f64,
     /// On the head, N.
-    pub(super) head: f64,
+    pub head: f64,
     /// On trunk and root together, N.
-    pub(super) trunk: f64,
+    pub trunk: f64,
 }
 
 impl Impact {
     /// Nothing has hit it yet; steps of `dt` s.
-    pub(super) fn new(dt: f64) -> Self {
+    #[must_use]
+    pub fn new(dt: f64) -> Self {
         Self {
             mix: dt / FILTER,
             head: 0.0,
@@ -29,7 +29,7 @@ impl Impact {
     }
 
     /// Takes in a step.
-    pub(super) fn observe(&mut self, now: &Sensors) {
+    pub fn observe(&mut self, now: &Sensors) {
         let model = &now.model;
         let force = |link: usize| {
             let [x, y] = now.contacts[link].force;
