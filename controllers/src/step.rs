@@ -28,7 +28,7 @@ use crate::gains::Gains;
 use crate::momentum::Formulation;
 use crate::target::{NamedAngles, bounded};
 use crate::upright::Upright;
-use aim::{beyond, ends, nearer, sole};
+use aim::{beyond, carried, ends, nearer, sole};
 
 /// How a foot is put down in one direction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -219,9 +219,7 @@ impl Step {
         // Balanced over the very end of the support is no place to stay.
         let part = (elapsed / LEANING).min(1.0);
         let margin = self.spec.margin - part * (self.spec.margin + INSIDE);
-        let strayed = now
-            .base_of_support
-            .is_some_and(|support| beyond(now.capture_point, support, margin));
+        let strayed = carried(now).is_some_and(|span| beyond(now.capture_point, span, margin));
         match self.phase {
             Phase::Swing { foot, forward } => {
                 let p = self.placement(forward);

@@ -26,6 +26,22 @@ pub(super) fn beyond(x: f64, [rear, front]: [f64; 2], margin: f64) -> bool {
     x > front + margin || x < rear - margin
 }
 
+/// Height below which a sole is as good as on the ground: it only has to be pressed, m.
+const NEAR: f64 = 0.03;
+
+/// The stretch of the ground that can carry: the support, and every sole that hangs just above the
+/// ground. A foot that is unloaded for a moment is no reason to step.
+pub(super) fn carried(now: &Sensors) -> Option<[f64; 2]> {
+    let mut span = now.base_of_support?;
+    for foot in 0..2 {
+        if sole(now, foot)[1] - now.ground < NEAR {
+            let [rear, front] = ends(now, foot);
+            span = [span[0].min(rear), span[1].max(front)];
+        }
+    }
+    Some(span)
+}
+
 /// The foot whose sole is nearer to the capture point.
 pub(super) fn nearer(now: &Sensors) -> usize {
     let [a, b] = [0, 1].map(|foot| (now.capture_point - sole(now, foot)[0]).abs());
