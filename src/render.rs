@@ -1,4 +1,5 @@
-//! Pictures of recorded runs: film strips, plots over time, animations.
+//! Pictures of recorded runs: film strips, plots over time, animations; and figures of learned
+//! pre-conditions ([`comparison`]).
 //!
 //! [`Trajectory`] → SVG text → PNG, GIF, MP4. All pictures are drawn as SVG; the others are
 //! rasterised from it with an embedded font, so that they look the same on every machine.
@@ -10,6 +11,7 @@ mod body;
 mod camera;
 mod chart;
 mod choose;
+pub mod comparison;
 mod film;
 mod marks;
 mod palette;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use aplomb_controllers::gains::Gains;
 use aplomb_controllers::momentum::{Formulation, Momentum, Reference};
 use aplomb_controllers::registry;
+use aplomb_framework::boundary::{Boundary, Calibration, Decision};
 use aplomb_framework::controller::Controller;
 use aplomb_framework::dynamics::Dynamics;
 use aplomb_framework::file::Source;
@@ -105,6 +106,45 @@ fn arbitration_of_eight(bencher: Bencher) {
     let now = pushed();
     let mind = pool_of_eight(&now.model);
     bencher.bench_local(|| mind.arbitrate(black_box(&now)));
+}
+
+/// A polynomial of the second degree over twenty features of the humanoid.
+fn learned_boundary(now: &Sensors) -> Boundary {
+    const COUNT: usize = 20;
+    let joints = now.model.joints().map(|j| format!("velocity.{}", j.name));
+    let others = ["com_from_feet", "capture_from_feet", "com_over_feet"];
+    let others = others
+        .into_iter()
+        .chain(["trunk_pitch", "trunk_rate", "load", "head_height"]);
+    let names = joints.chain(others.map(str::to_owned));
+    let names = names.chain(["com_velocity_x".to_owned()]);
+    let mut boundary = Boundary {
+        controller: "balance".to_owned(),
+        character: now.model.name.clone(),
+        character_digest: now.model.digest(),
+        features: names.map(|n| n.parse().unwrap()).collect(),
+        mean: vec![0.0; COUNT],
+        scale: vec![1.0; COUNT],
+        decision: Decision::Polynomial {
+            degree: 2,
+            coefficients: (0..231).map(|i| f64::from(i % 7) - 3.0).collect(),
+        },
+        calibration: Calibration {
+            slope: -1.0,
+            offset: 0.0,
+        },
+        provenance: "Numbers without a meaning.".to_owned(),
+    };
+    boundary.resolve(&now.model).unwrap();
+    boundary
+}
+
+#[divan::bench(sample_size = 1000)]
+fn boundary_of_twenty_features(bencher: Bencher) {
+    let now = pushed();
+    let boundary = learned_boundary(&now);
+    assert!(boundary.score(&now).is_finite());
+    bencher.bench_local(|| black_box(&boundary).score(black_box(&now)));
 }
 
 #[divan::bench(sample_count = 20)]

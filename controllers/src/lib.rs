@@ -52,6 +52,14 @@ macro_rules! shipped {
 }
 
 const FILES: &[(&str, &str)] = shipped![
+    "learned/balance.boundary.ron",
+    "learned/fall.boundary.ron",
+    "learned/protective_step.boundary.ron",
+    "learned/rise_kneeling.boundary.ron",
+    "learned/rise_prone.boundary.ron",
+    "learned/rise_sitting.boundary.ron",
+    "learned/rise_supine.boundary.ron",
+    "learned/roll.boundary.ron",
     "poses/bow.ron",
     "poses/free_arms.ron",
     "poses/lower.ron",
@@ -62,6 +70,7 @@ const FILES: &[(&str, &str)] = shipped![
     "poses/rise_supine.ron",
     "poses/roll.ron",
     "repertoires/humanoid.ron",
+    "repertoires/learned.ron",
     "repertoires/limp.ron",
     "repertoires/paper.ron",
     "skills/balance.ron",

@@ -8,6 +8,7 @@
 use allocation_counter::measure;
 use aplomb_controllers::registry;
 use aplomb_framework::controller::Controller;
+use aplomb_framework::file::Source;
 use aplomb_framework::model::Model;
 use aplomb_framework::repertoire;
 use aplomb_framework::scenario::Scenario;
@@ -47,6 +48,35 @@ fn sensing_and_thinking_allocate_nothing() {
         actuate <= most && engine <= steps_most,
         "actuate {actuate}, step {engine}"
     );
+}
+
+/// A learned boundary, polled and weighed.
+#[test]
+fn asking_what_was_learned_allocates_nothing() {
+    const FILE: &str = "learned/balance.boundary.ron";
+    const POOL: &str = r#"(name: "p", fallback: "rest", controllers: [
+        Learned(controller: "skills/balance.ron", boundary: "learned/balance.boundary.ron", confident: true),
+        File("skills/rest.ron"),
+    ])"#;
+    let model = Model::load("humanoid").unwrap();
+    let text = format!(
+        r#"(controller: "balance", character: "humanoid", character_digest: "{}",
+            features: ["com_velocity_x", "velocity.knee_l"], mean: [0, 0], scale: [1, 1],
+            decision: Gaussian(gamma: 0.5, support: [[0, 0], [2, 0]], weights: [1, -1], offset: 0),
+            calibration: (slope: -1, offset: 0), provenance: "Written by hand.")"#,
+        model.digest()
+    );
+    let registry = registry().with_file(FILE, text.leak());
+    let pool = Source::new("p.ron", POOL);
+    let mind = repertoire::build(&pool, None, &registry, &model).unwrap();
+    let mut world = World::new(Settings::default());
+    world.spawn(&model, &State::standing(&model));
+    world.detect_contacts();
+    let now = world.sense(0);
+    let bid = mind.bids(now)[0].suitability;
+    assert!(bid > 5.0 && bid < 10.0, "by its probability: {bid}");
+    let polling = measure(|| assert_eq!(mind.arbitrate(now), 0));
+    assert_eq!(polling.count_total, 0);
 }
 
 #[test]

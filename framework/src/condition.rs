@@ -4,9 +4,11 @@
 //! of which pre-conditions, post-conditions and expected performance are made.
 
 use std::fmt;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::boundary::Boundary;
 use crate::error::{Error, Result};
 use crate::feature::Feature;
 use crate::model::Model;
@@ -50,6 +52,9 @@ pub enum Condition {
     Any(Vec<Condition>),
     /// The other does not hold.
     Not(Box<Condition>),
+    /// A learned boundary says that success is expected. Where a feature of it is not a number it
+    /// does not.
+    Svm(Arc<Boundary>),
 }
 
 fn lowest() -> f64 {
@@ -69,7 +74,7 @@ fn is_infinite(bound: &f64) -> bool {
 pub struct Refusal<'a> {
     /// The first clause that does not hold.
     pub clause: &'a Condition,
-    /// The value of its feature, if it is about one.
+    /// The value of its feature, if it is about one; the score of a learned boundary.
     pub value: Option<f64>,
     /// The posture at the time.
     pub posture: Posture,
@@ -110,6 +115,14 @@ impl Condition {
             }
             Self::Not(c) if c.holds(now) => refused(None),
             Self::Not(_) => None,
+            Self::Svm(boundary) => {
+                let score = boundary.score(now);
+                if score >= 0.0 {
+                    None
+                } else {
+                    refused(Some(score))
+                }
+            }
         }
     }
 
@@ -119,10 +132,34 @@ impl Condition {
         self.first_failure(now).is_none()
     }
 
+    /// Whether any of its clauses was learned.
+    #[must_use]
+    pub fn is_learned(&self) -> bool {
+        match self {
+            Self::Svm(_) => true,
+            Self::All(list) | Self::Any(list) => list.iter().any(Self::is_learned),
+            Self::Not(c) => c.is_learned(),
+            Self::Always | Self::Never | Self::Within { .. } | Self::Posture(_) => false,
+        }
+    }
+
+    /// How likely success is where the condition holds: the product of the calibrated
+    /// probabilities of the learned boundaries that all have to hold; 1 if there are none.
+    /// Alternatives and negations say nothing about it.
+    #[must_use]
+    pub fn probability(&self, now: &Sensors) -> f64 {
+        match self {
+            Self::Svm(boundary) => boundary.probability(boundary.score(now)),
+            Self::All(all) => all.iter().map(|c| c.probability(now)).product(),
+            _ => 1.0,
+        }
+    }
+
     /// Looks up the joints that features name, and checks the bounds.
     ///
     /// # Errors
-    /// An unknown joint; bounds that are not numbers or out of order.
+    /// An unknown joint; bounds that are not numbers or out of order; a learned boundary that is
+    /// invalid or of another character.
     pub fn resolve(&mut self, model: &Model) -> Result<()> {
         match self {
             Self::Within { feature, min, max } => {
@@ -142,6 +179,7 @@ impl Condition {
                 }
             }
             Self::Not(c) => c.resolve(model)?,
+            Self::Svm(boundary) => Arc::make_mut(boundary).resolve(model)?,
             Self::Always | Self::Never | Self::Posture(_) => {}
         }
         Ok(())
@@ -179,6 +217,7 @@ impl fmt::Display for Condition {
             Self::All(all) => list(f, all, "and"),
             Self::Any(any) => list(f, any, "or"),
             Self::Not(c) => write!(f, "not {c}"),
+            Self::Svm(boundary) => write!(f, "{boundary}"),
         }
     }
 }
@@ -197,6 +236,8 @@ impl fmt::Display for Refusal<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::boundary::Decision;
+    use crate::boundary::tests::{boundary, polynomial};
     use crate::model::Model;
     use proptest::prelude::*;
 
@@ -233,11 +274,75 @@ mod tests {
         assert!(!within("com_offset", f64::NEG_INFINITY, f64::INFINITY).holds(&now));
     }
 
+    fn slower_than_one() -> Condition {
+        Condition::Svm(Arc::new(polynomial(&["com_velocity_x"], &[1.0, -1.0])))
+    }
+
+    #[test]
+    fn a_learned_boundary_refuses_with_its_score() {
+        let model = Model::load("humanoid").unwrap();
+        let mut now = Sensors::new(&model, 9.81);
+        let mut c = Condition::All(vec![
+            Condition::Posture(vec![now.posture]),
+            slower_than_one(),
+        ]);
+        c.resolve(&model).unwrap();
+        now.com_velocity[0] = 1.0;
+        assert!(c.holds(&now), "0 is within");
+        now.com_velocity[0] = 1.3125;
+        assert_eq!(
+            c.first_failure(&now).unwrap().to_string(),
+            "svm of balance (1 feature, poly1) (is -0.312)"
+        );
+        now.com_velocity[0] = f64::NAN;
+        assert!(!c.holds(&now));
+    }
+
+    #[test]
+    fn probabilities_of_what_has_to_hold_are_multiplied() {
+        let model = Model::load("humanoid").unwrap();
+        let mut now = Sensors::new(&model, 9.81);
+        now.com_velocity[0] = 0.25;
+        let one = 1.0 / (1.0 + (-2.0 * 0.75 + 0.5_f64).exp());
+        let learned = slower_than_one;
+        for (c, is_learned, probability) in [
+            (learned(), true, one),
+            (
+                Condition::All(vec![learned(), Condition::Always, learned()]),
+                true,
+                one * one,
+            ),
+            (Condition::Any(vec![learned()]), true, 1.0),
+            (Condition::Not(Box::new(learned())), true, 1.0),
+            (Condition::All(vec![Condition::Always]), false, 1.0),
+            (within("com_height", 0.0, 1.0), false, 1.0),
+        ] {
+            assert_eq!(c.is_learned(), is_learned, "{c}");
+            assert!((c.probability(&now) - probability).abs() < 1e-15, "{c}");
+        }
+    }
+
     #[test]
     fn unordered_bounds_are_refused() {
         let model = Model::load("humanoid").unwrap();
         assert!(within("com_height", 1.0, 0.0).resolve(&model).is_err());
         assert!(within("com_height", f64::NAN, 0.0).resolve(&model).is_err());
+    }
+
+    fn any_boundary() -> impl Strategy<Value = Boundary> {
+        let numbers = |n| prop::collection::vec(-1e3..1e3_f64, n);
+        let features = ["com_velocity_x", "angle.knee_l"];
+        let quadratic = numbers(6).prop_map(move |c| polynomial(&features, &c));
+        let gaussian = (1e-3..10.0_f64, numbers(7)).prop_map(move |(gamma, n)| {
+            let decision = Decision::Gaussian {
+                gamma,
+                support: vec![n[..2].to_vec(), n[2..4].to_vec()],
+                weights: n[4..6].to_vec(),
+                offset: n[6],
+            };
+            boundary(&features, decision)
+        });
+        prop_oneof![quadratic, gaussian]
     }
 
     fn any_condition() -> impl Strategy<Value = Condition> {
@@ -247,6 +352,7 @@ mod tests {
             Just(Condition::Posture(vec![Posture::Prone, Posture::Airborne])),
             (-1e3..1e3_f64, 0.0..1e3_f64).prop_map(|(a, w)| within("com_velocity_x", a, a + w)),
             (-1e3..1e3_f64).prop_map(|a| within("angle.knee_l", a, f64::INFINITY)),
+            any_boundary().prop_map(|b| Condition::Svm(Arc::new(b))),
         ];
         leaf.prop_recursive(4, 24, 4, |inner| {
             prop_oneof![

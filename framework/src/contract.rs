@@ -7,6 +7,7 @@ use crate::command::{Answer, Command};
 use crate::condition::Condition;
 use crate::error::{Error, Result};
 use crate::model::Model;
+use crate::sensors::Sensors;
 
 /// A controller's contract, as data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -16,6 +17,10 @@ pub struct Contract {
     pub name: String,
     /// Suitability = weight × pre-condition. 0: only on command.
     pub weight: u32,
+    /// Whether suitability is weight × probability of success where the pre-condition holds, as
+    /// far as the pre-condition was learned, instead of weight × 1.
+    #[serde(default)]
+    pub confident: bool,
     /// Where the controller can take over.
     pub precondition: Condition,
     /// Where it has succeeded; `Never` stays on until it fails or something else is commanded.
@@ -93,6 +98,20 @@ impl Contract {
             });
         }
         Ok(())
+    }
+
+    /// Weight × pre-condition, or × probability of success if it is confident.
+    #[must_use]
+    pub fn suitability(&self, now: &Sensors) -> f64 {
+        if self.weight == 0 || !self.precondition.holds(now) {
+            return 0.0;
+        }
+        let weight = f64::from(self.weight);
+        if self.confident {
+            weight * self.precondition.probability(now)
+        } else {
+            weight
+        }
     }
 
     /// The entry of [`Self::commands`] with the command's name.

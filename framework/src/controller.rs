@@ -40,14 +40,10 @@ pub trait Controller: Debug + Send + Sync {
     /// A clone, as a box.
     fn clone_box(&self) -> Box<dyn Controller>;
 
-    /// The bid for control: weight × pre-condition.
-    fn suitability(&self, now: &Sensors) -> u32 {
-        let contract = self.contract();
-        if contract.weight > 0 && contract.precondition.holds(now) {
-            contract.weight
-        } else {
-            0
-        }
+    /// The bid for control: weight × pre-condition, or × probability of success if the contract
+    /// is confident. What is not a finite number above 0 is no bid.
+    fn suitability(&self, now: &Sensors) -> f64 {
+        self.contract().suitability(now)
     }
 
     /// How it is getting on, `elapsed` s after [`enter`](Self::enter). `kept` is for how many

@@ -2,7 +2,7 @@
 //!
 //! supervisor → [`Decision`] → events.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// Why control changed hands.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,10 +22,20 @@ pub enum Why {
 pub struct Bid {
     /// Its name.
     pub controller: String,
-    /// Its suitability; 0 if it refused.
-    pub suitability: u32,
+    /// Its suitability; 0 if it refused. In text formats a whole number is written as one.
+    #[serde(serialize_with = "shortly")]
+    pub suitability: f64,
     /// Why it bid 0.
     pub refusal: Option<String>,
+}
+
+fn shortly<S: Serializer>(bid: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    let whole = bid.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(bid);
+    if whole && serializer.is_human_readable() {
+        serializer.serialize_u32(*bid as u32)
+    } else {
+        serializer.serialize_f64(*bid)
+    }
 }
 
 /// What a supervisor decided, with the time in s.
@@ -64,4 +74,28 @@ pub enum Decision {
         /// The command.
         command: String,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_bids_are_written_as_whole_numbers_and_all_round_trip() {
+        for (suitability, text) in [(10.0, "10"), (7.25, "7.25"), (0.0, "0")] {
+            let bid = Bid {
+                controller: "balance".to_owned(),
+                suitability,
+                refusal: None,
+            };
+            let written = ron::to_string(&bid).unwrap();
+            assert!(
+                written.contains(&format!("suitability:{text},")),
+                "{written}"
+            );
+            assert_eq!(ron::from_str::<Bid>(&written).unwrap(), bid);
+            let bytes = postcard::to_stdvec(&bid).unwrap();
+            assert_eq!(postcard::from_bytes::<Bid>(&bytes).unwrap(), bid);
+        }
+    }
 }

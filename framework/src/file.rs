@@ -35,7 +35,15 @@ impl Source {
     /// # Errors
     /// [`Error::Read`] for anything else: missing, a directory or device, too large, not UTF-8.
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = read_bounded(path, LARGEST_TEXT)?;
+        Self::read_up_to(path, LARGEST_TEXT)
+    }
+
+    /// Reads a regular UTF-8 text file of at most `limit` bytes.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn read_up_to(path: &Path, limit: u64) -> Result<Self> {
+        let bytes = read_bounded(path, limit)?;
         let text = String::from_utf8(bytes).map_err(|_| Error::Read {
             path: path.to_owned(),
             reason: "it is no UTF-8 text".to_owned(),

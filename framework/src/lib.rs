@@ -13,18 +13,22 @@
 //!
 //! - character file → [`model`] → [`body`] in a [`world`]
 //! - body → [`state`] → [`kinematics`] → [`sensors`] → [`feature`] → [`condition`]
+//! - boundary file → [`boundary`], a learned region → [`condition`]
 //! - conditions → [`contract`] → [`controller`] → [`supervisor`] → torques → body
 //! - state → [`dynamics`] → controllers that need M, h, A and Jacobians
 //! - files → [`registry`] → [`repertoire`] → supervisor; text → [`command`] → supervisor
 //! - [`scenario`] → [`simulation`] → [`trajectory`]
 //!
-//! Files whose items are found elsewhere: `model_file`, `model_tree` (in [`model`]), `vocabulary`
-//! ([`feature`]), `pool`, `decision` ([`supervisor`]), `scenario_bounds` ([`scenario`]), `start`,
-//! `schedule`, `actor`, `expectation` ([`simulation`]), `event`, `trajectory_file`
-//! ([`trajectory`]).
+//! Files whose items are found elsewhere: `model_file`, `model_tree`, `model_digest` (in [`model`]),
+//! `vocabulary` ([`feature`]), `boundary_bounds`, `boundary_decision` ([`boundary`]), `pool`,
+//! `decision` ([`supervisor`]), `scenario_bounds` ([`scenario`]), `start`, `schedule`, `actor`,
+//! `expectation` ([`simulation`]), `event`, `trajectory_file` ([`trajectory`]).
 
 mod actor;
 pub mod body;
+pub mod boundary;
+mod boundary_bounds;
+mod boundary_decision;
 pub mod command;
 pub mod condition;
 pub mod contract;
@@ -38,6 +42,7 @@ pub mod feature;
 pub mod file;
 pub mod kinematics;
 pub mod model;
+mod model_digest;
 mod model_file;
 mod model_tree;
 mod pool;

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Error, Result};
 use crate::file::Source;
 use crate::kinematics::Kinematics;
+use crate::model_digest;
 use crate::state::State;
 
 /// At most this many links a character.
@@ -114,6 +115,7 @@ pub struct Model {
     pub head: usize,
     /// The character file's text, so that a recording can carry its character.
     pub source: String,
+    digest: u64,
     total_mass: f64,
     standing_height: f64,
     standing_com: Point,
@@ -177,6 +179,7 @@ impl Model {
         let total_mass = links.iter().map(|l| l.mass).sum();
         let mut model = Self {
             source,
+            digest: model_digest::digest(&links, &feet, &hands, trunk, head),
             name,
             links,
             feet,
@@ -206,7 +209,7 @@ impl Model {
     }
 
     /// The same character with stronger or weaker muscles and heavier or lighter links: factors of
-    /// all torque limits, and of all masses and inertias.
+    /// all torque limits, and of all masses and inertias. Its digest stays.
     #[must_use]
     pub fn varied(self: &Arc<Self>, torque: f64, mass: f64) -> Arc<Self> {
         if (torque, mass) == (1.0, 1.0) {
@@ -222,6 +225,13 @@ impl Model {
         }
         model.total_mass *= mass;
         Arc::new(model)
+    }
+
+    /// 16 hexadecimal digits that are the same as long as the character's numbers are: those of its
+    /// file, however it is [`varied`](Self::varied).
+    #[must_use]
+    pub fn digest(&self) -> String {
+        format!("{:016x}", self.digest)
     }
 
     /// Number of degrees of freedom: three of the root and one a joint.

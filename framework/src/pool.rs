@@ -25,12 +25,16 @@ impl Member {
         }
     }
 
-    /// Its suitability now.
-    pub(crate) fn bid(&self, now: &Sensors) -> u32 {
+    /// Its suitability now; 0 instead of what is no finite number above 0.
+    pub(crate) fn bid(&self, now: &Sensors) -> f64 {
         if now.time < self.recovers_at {
-            0
+            return 0.0;
+        }
+        let suitability = self.controller.suitability(now);
+        if suitability.is_finite() && suitability > 0.0 {
+            suitability
         } else {
-            self.controller.suitability(now)
+            0.0
         }
     }
 
@@ -38,7 +42,7 @@ impl Member {
     pub(crate) fn explain(&self, now: &Sensors) -> Bid {
         let suitability = self.bid(now);
         let contract = self.controller.contract();
-        let refusal = (suitability == 0).then(|| {
+        let refusal = (suitability == 0.0).then(|| {
             if contract.weight == 0 {
                 "only on command".to_owned()
             } else if now.time < self.recovers_at {
@@ -100,6 +104,7 @@ pub(crate) fn contract(name: &str, pool: &[Box<dyn Controller>]) -> Contract {
         name: name.to_owned(),
         weight: pool.iter().map(|c| c.contract().weight).max().unwrap_or(0),
         precondition: Condition::Any(preconditions.collect()),
+        confident: false,
         postcondition: Condition::Never,
         expected: Condition::Always,
         hold: 0.0,

@@ -214,6 +214,26 @@ impl Sensors {
         most - x.fold(f64::INFINITY, f64::min)
     }
 
+    /// Rear and front end of all soles together, whether they touch or not, world x, m.
+    #[must_use]
+    pub fn soles(&self) -> [f64; 2] {
+        let wider = |[rear, front]: [f64; 2], [x, _]: Point| [rear.min(x), front.max(x)];
+        let nothing = [f64::INFINITY, f64::NEG_INFINITY];
+        self.sole_ends().fold(nothing, wider)
+    }
+
+    /// Height of the lowest end of a sole, world y, m.
+    #[must_use]
+    pub fn lowest_sole(&self) -> f64 {
+        self.sole_ends().map(|p| p[1]).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Heels and toes, in the world.
+    fn sole_ends(&self) -> impl Iterator<Item = Point> + '_ {
+        let feet = self.model.feet.iter();
+        feet.flat_map(|f| [f.heel, f.toe].map(|end| self.kinematics.point(f.link, end)))
+    }
+
     /// Recomputes everything that follows from state, links and feet. Called by whoever senses.
     pub fn derive(&mut self) {
         self.kinematics.update(&self.model, &self.state);

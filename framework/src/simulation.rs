@@ -121,12 +121,30 @@ impl Simulation {
     /// # Errors
     /// An unknown link, or an impulse that is not finite.
     pub fn push(&mut self, character: usize, link: &str, impulse: f64) -> Result<()> {
+        self.shove(character, link, [impulse, 0.0], PUSH_DURATION)
+    }
+
+    /// Pushes a character's link now, in any direction: impulse in N·s, forward and up, spread over
+    /// a time, s.
+    ///
+    /// # Errors
+    /// An unknown link; an impulse that is not finite; a time that is not from 0 to 60 s.
+    pub fn shove(
+        &mut self,
+        character: usize,
+        link: &str,
+        impulse: [f64; 2],
+        over: f64,
+    ) -> Result<()> {
         let link = self.model(character).link_index(link)?;
-        if !impulse.is_finite() {
+        if let Some(bad) = impulse.iter().find(|i| !i.is_finite()) {
             let accepted = "a finite number of N·s";
-            return Err(Error::invalid("push", "impulse", impulse, accepted));
+            return Err(Error::invalid("push", "impulse", bad, accepted));
         }
-        self.do_push(character, link, impulse, PUSH_DURATION);
+        if !(0.0..=60.0).contains(&over) {
+            return Err(Error::invalid("push", "over", over, "0 to 60 s"));
+        }
+        self.do_push(character, link, impulse, over);
         Ok(())
     }
 
@@ -258,7 +276,7 @@ impl Simulation {
                     link,
                     impulse,
                     over,
-                } => self.do_push(character, link, impulse, over),
+                } => self.do_push(character, link, [impulse, 0.0], over),
                 // A refusal is in the events.
                 Deed::Command(text) => drop(self.command(character, &text)),
             }
@@ -278,12 +296,12 @@ impl Simulation {
         self.world.step();
     }
 
-    fn do_push(&mut self, character: usize, link: usize, impulse: f64, over: f64) {
+    fn do_push(&mut self, character: usize, link: usize, impulse: [f64; 2], over: f64) {
         let name = self.model(character).links[link].name.clone();
-        self.world.push(character, link, [impulse, 0.0], over);
+        self.world.push(character, link, impulse, over);
         let kind = EventKind::Push {
             link: name,
-            impulse: [impulse, 0.0],
+            impulse,
         };
         self.note(character, kind);
     }

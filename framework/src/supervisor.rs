@@ -131,7 +131,7 @@ impl Supervisor {
     /// The member with the highest bid, the earliest of equals; the fallback if all bid 0.
     #[must_use]
     pub fn arbitrate(&self, now: &Sensors) -> usize {
-        let mut best = (self.fallback, 0);
+        let mut best = (self.fallback, 0.0);
         for (i, m) in self.pool.iter().enumerate() {
             let bid = m.bid(now);
             if bid > best.1 {

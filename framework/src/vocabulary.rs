@@ -163,4 +163,114 @@ pub(crate) const SCALARS: &[Scalar] = &[
         "distance between the foremost and the rearmost ankle",
         Sensors::feet_apart,
     ),
+    // These exist in the air, too.
+    scalar(
+        "com_from_feet",
+        "m",
+        "centre of mass ahead of the middle of all soles, touching or not",
+        |s| s.com[0] - middle(s.soles()),
+    ),
+    scalar(
+        "capture_from_feet",
+        "m",
+        "capture point ahead of the middle of all soles, touching or not",
+        |s| s.capture_point - middle(s.soles()),
+    ),
+    scalar(
+        "com_over_feet",
+        "m",
+        "centre of mass above the lowest sole",
+        |s| s.com[1] - s.lowest_sole(),
+    ),
+    scalar(
+        "feet_height",
+        "m",
+        "lowest sole above the surface last touched",
+        |s| s.lowest_sole() - s.ground,
+    ),
+    scalar(
+        "footing_front",
+        "m",
+        "front end of the footing (base of support, or the soles while nothing supports) ahead of the capture point",
+        |s| footing(s)[1] - s.capture_point,
+    ),
+    scalar(
+        "footing_rear",
+        "m",
+        "capture point ahead of the rear end of the footing",
+        |s| s.capture_point - footing(s)[0],
+    ),
 ];
+
+fn footing(now: &Sensors) -> [f64; 2] {
+    now.base_of_support.unwrap_or_else(|| now.soles())
+}
+
+fn middle([rear, front]: [f64; 2]) -> f64 {
+    0.5 * (rear + front)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::feature::Feature;
+    use crate::model::Model;
+    use crate::sensors::Sensors;
+
+    fn value(feature: &str, now: &Sensors) -> f64 {
+        feature.parse::<Feature>().unwrap().value(now)
+    }
+
+    #[test]
+    fn what_is_told_from_the_feet_exists_in_the_air() {
+        let model = Model::load("humanoid").unwrap();
+        let mut now = Sensors::new(&model, 9.81);
+        let lift = 0.4;
+        now.state.q[1] += lift;
+        (now.state.qdot[0], now.ground) = (0.5, 0.1);
+        now.derive();
+        assert_eq!(now.base_of_support, None);
+        // Both feet are below the hips, which are at the root's x.
+        let (foot, com) = (&model.feet[0], model.standing_com());
+        let ahead = com[0] - 0.5 * (foot.heel[0] + foot.toe[0]);
+        let to_capture = 0.5 * ((com[1] + lift - 0.1) / 9.81).sqrt();
+        for (feature, expected) in [
+            ("com_from_feet", ahead),
+            ("capture_from_feet", ahead + to_capture),
+            ("com_over_feet", com[1]),
+            ("feet_height", lift - 0.1),
+            ("footing_front", now.soles()[1] - com[0] - to_capture),
+            ("footing_rear", com[0] + to_capture - now.soles()[0]),
+        ] {
+            let found = value(feature, &now);
+            assert!(
+                (found - expected).abs() < 1e-12,
+                "{feature}: {found} for {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_feet_are_taken_together() {
+        let model = Model::load("humanoid").unwrap();
+        let mut now = Sensors::new(&model, 9.81);
+        let (right, left) = (
+            model.joint_index("hip_r").unwrap(),
+            model.joint_index("hip_l"),
+        );
+        (now.state.q[3 + right], now.state.q[3 + left.unwrap()]) = (0.3, -0.3);
+        now.derive();
+        let [rear, front] = now.soles();
+        assert!(front - rear > now.feet_apart() && now.feet_apart() > 0.3);
+        let lowest = now.lowest_sole();
+        let ends = [
+            model.feet[0].toe,
+            model.feet[0].heel,
+            model.feet[1].toe,
+            model.feet[1].heel,
+        ];
+        for (i, end) in ends.into_iter().enumerate() {
+            let [x, y] = now.kinematics.point(model.feet[i / 2].link, end);
+            assert!(x >= rear && x <= front && y >= lowest, "({x}, {y})");
+        }
+    }
+}

@@ -5,7 +5,6 @@ use std::io::Write;
 
 use anyhow::Result;
 use aplomb::framework::command::Answer;
-use aplomb::framework::condition::Condition;
 use aplomb::framework::contract::Contract;
 use aplomb::framework::feature::Feature;
 use aplomb::framework::repertoire;
@@ -52,6 +51,8 @@ struct Row {
     kind: Option<String>,
     weight: u32,
     learned: bool,
+    /// Whether it bids weight × probability of success.
+    confident: bool,
     commands: Vec<Answer>,
     precondition: String,
     postcondition: String,
@@ -124,25 +125,14 @@ fn row(contract: &Contract, kinds: &BTreeMap<String, String>) -> Row {
         name: contract.name.clone(),
         kind: kinds.get(&contract.name).cloned(),
         weight: contract.weight,
-        learned: learned(&contract.precondition),
+        learned: contract.precondition.is_learned(),
+        confident: contract.confident,
         commands: contract.commands.clone(),
         precondition: contract.precondition.to_string(),
         postcondition: contract.postcondition.to_string(),
         expected: contract.expected.to_string(),
         hold: contract.hold,
         patience: Some(contract.patience).filter(|p| p.is_finite()),
-    }
-}
-
-/// Whether a condition has a clause that nobody wrote by hand.
-fn learned(condition: &Condition) -> bool {
-    match condition {
-        Condition::Always | Condition::Never | Condition::Within { .. } | Condition::Posture(_) => {
-            false
-        }
-        Condition::All(list) | Condition::Any(list) => list.iter().any(learned),
-        Condition::Not(inner) => learned(inner),
-        _ => true,
     }
 }
 
@@ -159,7 +149,11 @@ fn print(out: &mut dyn Write, rows: &[Row]) -> std::io::Result<()> {
         "controller", "kind"
     )?;
     for row in rows {
-        let origin = if row.learned { "learned" } else { "manual" };
+        let origin = match (row.learned, row.confident) {
+            (true, true) => "learned, bids by probability",
+            (true, false) => "learned",
+            (false, _) => "manual",
+        };
         let (name, kind, weight) = (&row.name, kind(row), row.weight);
         writeln!(out, "{name:names$}  {kind:kinds$}  {weight:6}  {origin}")?;
     }
@@ -189,18 +183,4 @@ pub(super) fn usage(answer: &Answer) -> String {
         text.push_str(&format!(" {name}={min}..{max} ({default})"));
     }
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn conditions_written_by_hand_are_not_learned() {
-        let hand = Condition::All(vec![
-            Condition::Not(Box::new(Condition::Never)),
-            Condition::Any(vec![Condition::Always]),
-        ]);
-        assert!(!learned(&hand));
-    }
 }

@@ -2,6 +2,7 @@
 //!
 //! arguments → subcommand → results on stdout, progress and messages on stderr, exit code.
 
+mod compare;
 mod controllers;
 mod json;
 mod output;
@@ -11,6 +12,7 @@ mod robustness;
 mod run;
 mod scene;
 mod shell;
+mod statistics;
 mod story;
 mod timeline;
 mod train;
@@ -53,6 +55,7 @@ enum Command {
     Controllers(controllers::ControllersArgs),
     #[command(subcommand)]
     Train(train::TrainCommand),
+    Compare(compare::CompareArgs),
     Robustness(robustness::RobustnessArgs),
     Render(render::RenderArgs),
 }
@@ -77,6 +80,7 @@ impl Cli {
             Some(Command::Shell(args)) => args.run(out),
             Some(Command::Controllers(args)) => args.run(out),
             Some(Command::Train(command)) => command.run(out),
+            Some(Command::Compare(args)) => args.run(out),
             Some(Command::Robustness(args)) => args.run(out),
             Some(Command::Render(args)) => args.run(out),
         }

@@ -63,7 +63,8 @@ pub(super) fn print_event(out: &mut dyn Write, event: &Event, detail: Detail) ->
 pub(super) fn print_bids(out: &mut dyn Write, bids: &[Bid], indent: &str) -> Result<()> {
     let width = bids.iter().map(|b| b.controller.len()).max().unwrap_or(0);
     for bid in bids {
-        let (name, suitability) = (&bid.controller, bid.suitability);
+        let name = &bid.controller;
+        let suitability = (1e3 * bid.suitability).round() / 1e3;
         match &bid.refusal {
             None => writeln!(out, "{indent}{name:width$}  bids {suitability}")?,
             Some(why) => writeln!(out, "{indent}{name:width$}  refuses: {why}")?,

@@ -1,6 +1,6 @@
-//! One panel of a plot over time: axes with units, lines with gaps, bands.
+//! One panel of a plot, most often over time: axes with units, lines with gaps, bands.
 
-use svg::node::element::{Group, Polyline};
+use svg::node::element::{Group, Polyline, SVG};
 
 use super::scene::window;
 use super::style::{
@@ -14,8 +14,8 @@ pub(super) struct Chart {
     pub(super) at: [f64; 2],
     /// Its size, px.
     pub(super) size: [f64; 2],
-    /// First and last time, s.
-    pub(super) time: [f64; 2],
+    /// Leftmost and rightmost value along x; of plots over time first and last time, s.
+    pub(super) span: [f64; 2],
     /// Lowest and highest value.
     pub(super) value: [f64; 2],
 }
@@ -35,8 +35,8 @@ pub(super) fn range(values: impl Iterator<Item = f64>, least: f64) -> [f64; 2] {
 
 impl Chart {
     /// px from the left of the plotting area.
-    fn x(&self, time: f64) -> f64 {
-        (time - self.time[0]) / (self.time[1] - self.time[0]) * self.size[0]
+    fn x(&self, along: f64) -> f64 {
+        (along - self.span[0]) / (self.span[1] - self.span[0]) * self.size[0]
     }
 
     /// px from its top.
@@ -44,13 +44,34 @@ impl Chart {
         (self.value[1] - value) / (self.value[1] - self.value[0]) * self.size[1]
     }
 
-    /// Picture x of a time, px.
-    pub(super) fn across(&self, time: f64) -> f64 {
-        self.at[0] + self.x(time)
+    /// Picture x of a value along x, px.
+    pub(super) fn across(&self, along: f64) -> f64 {
+        self.at[0] + self.x(along)
     }
 
-    /// Grid, ticks, labels; `times` labels the time axis as well.
-    pub(super) fn axes(&self, label: &str, times: bool) -> Group {
+    /// A point within the plotting area, px from its upper left corner.
+    pub(super) fn inside(&self, [along, value]: [f64; 2]) -> [f64; 2] {
+        [self.x(along), self.y(value)]
+    }
+
+    /// What is drawn from the plotting area's upper left corner on, cut off at its edges.
+    pub(super) fn window(&self, content: Group) -> SVG {
+        window(self.at, self.size, content)
+    }
+
+    /// Grid, ticks, labels; `below` is the label of the x axis, if that is labelled as well.
+    pub(super) fn axes(&self, label: &str, below: Option<&str>) -> Group {
+        let step = nice_step(self.span[1] - self.span[0], self.size[0] / 75.0);
+        let (first, last) = (self.span[0] / step, self.span[1] / step + 1e-9);
+        let values = (first.ceil() as i64..=last.floor() as i64).map(|k| k as f64 * step);
+        let ticks: Vec<_> = values.map(|v| (v, tick_label(v, step))).collect();
+        Group::new()
+            .add(self.rows(label))
+            .add(self.columns(&ticks, below))
+    }
+
+    /// Grid, ticks and label of the y axis.
+    pub(super) fn rows(&self, label: &str) -> Group {
         let [x, y] = self.at;
         let [width, height] = self.size;
         let mut group = Group::new();
@@ -69,35 +90,29 @@ impl Chart {
                     &tick_label(value, step),
                 ));
         }
-        let step = nice_step(self.time[1] - self.time[0], width / 75.0);
-        for k in (self.time[0] / step).ceil() as i64..=(self.time[1] / step + 1e-9).floor() as i64 {
-            let time = k as f64 * step;
-            let at = self.across(time);
-            group = group
-                .add(line([at, y], [at, y + height], GRID, 1.0))
-                .add(line([at, y + height], [at, y + height + 4.0], INK, 1.0));
-            if times {
-                group = group.add(text(
-                    [at, y + height + 16.0],
-                    10.5,
-                    INK,
-                    "middle",
-                    &tick_label(time, step),
-                ));
-            }
-        }
-        if times {
-            group = group.add(text(
-                [x + width / 2.0, y + height + 33.0],
-                11.0,
-                INK,
-                "middle",
-                "time (s)",
-            ));
-        }
         let middle = [x - 46.0, y + height / 2.0];
         let turn = format!("rotate(-90 {} {})", px(middle[0]), px(middle[1]));
         group.add(text(middle, 11.0, INK, "middle", label).set("transform", turn))
+    }
+
+    /// Grid and ticks of the x axis at some values; their labels and the axis's, if it has one.
+    pub(super) fn columns(&self, ticks: &[(f64, String)], below: Option<&str>) -> Group {
+        let bottom = self.at[1] + self.size[1];
+        let mut group = Group::new();
+        for (along, name) in ticks {
+            let at = self.across(*along);
+            group = group
+                .add(line([at, self.at[1]], [at, bottom], GRID, 1.0))
+                .add(line([at, bottom], [at, bottom + 4.0], INK, 1.0));
+            if below.is_some() {
+                group = group.add(text([at, bottom + 16.0], 10.5, INK, "middle", name));
+            }
+        }
+        if let Some(below) = below {
+            let at = [self.at[0] + self.size[0] / 2.0, bottom + 33.0];
+            group = group.add(text(at, 11.0, INK, "middle", below));
+        }
+        group
     }
 
     /// The frame, drawn after everything else.
@@ -157,7 +172,7 @@ impl Chart {
             }
         }
         group = add(group, &mut run);
-        Group::new().add(window(self.at, self.size, group))
+        Group::new().add(self.window(group))
     }
 
     /// The area between two values, interrupted where there are none.
@@ -196,7 +211,7 @@ impl Chart {
             }
         }
         group = close(group, &mut run);
-        Group::new().add(window(self.at, self.size, group))
+        Group::new().add(self.window(group))
     }
 }
 
@@ -210,7 +225,8 @@ pub(super) struct Style {
 }
 
 impl Style {
-    fn polyline(&self, run: &[[f64; 2]]) -> Polyline {
+    /// Through the points.
+    pub(super) fn polyline(&self, run: &[[f64; 2]]) -> Polyline {
         let line = Polyline::new()
             .set("points", points(run))
             .set("fill", "none")
@@ -238,7 +254,7 @@ mod tests {
         Chart {
             at: [0.0; 2],
             size: [100.0, 50.0],
-            time: [0.0, 10.0],
+            span: [0.0, 10.0],
             value: [-1.0, 1.0],
         }
     }

@@ -50,7 +50,7 @@ pub(super) fn plot(
     let mut chart = Chart {
         at: [LEFT, 0.0],
         size: [inner, 0.0],
-        time: [0.0, duration],
+        span: [0.0, duration],
         value: [0.0, 1.0],
     };
     let labels = event_labels(trajectory, character, &chart);
@@ -86,7 +86,8 @@ pub(super) fn plot(
     let bottom = y - GAP;
     let names = ["position x (m)", "height (m)", "trunk pitch (rad)"];
     for (k, chart) in charts.iter().enumerate() {
-        group = group.add(chart.axes(names[k], k + 1 == charts.len()));
+        let below = (k + 1 == charts.len()).then_some("time (s)");
+        group = group.add(chart.axes(names[k], below));
     }
     group = group.add(event_marks(&labels, &charts, top));
 

@@ -17,11 +17,18 @@ pub(super) const SUPPORT: &str = "#e69f00";
 pub(super) const COM: &str = "#0b4f8a";
 pub(super) const CAPTURE: &str = "#b5478f";
 
-/// Twelve hues that remain apart for the common kinds of colour blindness (after Okabe and Ito,
-/// and Tol's "muted").
-const CONTROLLERS: [&str; 12] = [
-    "#0072b2", "#d55e00", "#117733", "#aa4499", "#e69f00", "#332288", "#44aa99", "#882255",
-    "#56b4e9", "#999933", "#cc6677", "#5f6b76",
+/// Two dozen colours, the second dozen for large pools only. The hues of the first remain apart for
+/// the common kinds of colour blindness (after Okabe and Ito, and Tol's "muted"); each of the second
+/// is as far as can be from all before it, as seen with and without colour blindness.
+const CONTROLLERS: [[&str; 12]; 2] = [
+    [
+        "#0072b2", "#d55e00", "#117733", "#aa4499", "#e69f00", "#332288", "#44aa99", "#882255",
+        "#56b4e9", "#999933", "#cc6677", "#5f6b76",
+    ],
+    [
+        "#003300", "#6622cc", "#bbbbbb", "#554400", "#77cc77", "#550044", "#7788bb", "#cc2255",
+        "#554488", "#443333", "#0000aa", "#0044aa",
+    ],
 ];
 
 /// A coordinate for SVG: two decimals, finite, and near enough for every renderer.
@@ -36,22 +43,24 @@ pub(super) fn px(x: f64) -> f64 {
 /// One colour a controller of a pool. A name prefers the same colour in every pool, and gets
 /// another only where an earlier name of the pool has it already.
 pub(super) fn controller_colours(pool: &[String]) -> Vec<&'static str> {
-    let mut taken = [false; CONTROLLERS.len()];
+    let mut taken: Vec<&str> = Vec::new();
     let mut colours = Vec::with_capacity(pool.len());
     for name in pool {
-        if taken.iter().all(|t| *t) {
-            taken = [false; CONTROLLERS.len()];
+        if taken.len() == CONTROLLERS.as_flattened().len() {
+            taken.clear();
         }
         // FNV-1a: the same on every machine and in every version.
         let hash = name.bytes().fold(0x811c_9dc5_u32, |h, b| {
             (h ^ u32::from(b)).wrapping_mul(0x0100_0193)
         });
-        let mut place = hash as usize % CONTROLLERS.len();
-        while taken[place] {
-            place = (place + 1) % CONTROLLERS.len();
-        }
-        taken[place] = true;
-        colours.push(CONTROLLERS[place]);
+        let preferred = |dozen: &'static [&'static str; 12]| {
+            let first = hash as usize % dozen.len();
+            dozen.iter().cycle().skip(first).take(dozen.len())
+        };
+        let mut free = CONTROLLERS.iter().flat_map(preferred);
+        let colour = free.find(|c| !taken.contains(c)).unwrap_or(&INK);
+        taken.push(colour);
+        colours.push(*colour);
     }
     colours
 }
@@ -263,7 +272,19 @@ mod tests {
         for (name, colour) in names.iter().zip(&colours).take(1) {
             assert_eq!(controller_colours(&pool(&[name]))[0], *colour);
         }
-        assert_eq!(controller_colours(&vec!["x".to_owned(); 40]).len(), 40);
+    }
+
+    #[test]
+    fn two_dozen_controllers_have_as_many_colours() {
+        let many: Vec<String> = (0..60).map(|i| format!("controller {i}")).collect();
+        let colours = controller_colours(&many);
+        assert_eq!(colours.len(), 60);
+        let mut distinct = colours[..24].to_vec();
+        distinct.sort_unstable();
+        distinct.dedup();
+        assert_eq!(distinct.len(), 24);
+        let (first, all) = (&colours[..12], controller_colours(&many[..12]));
+        assert_eq!(first, all, "those added later take nobody's colour");
     }
 
     #[test]

@@ -39,7 +39,7 @@ pub(super) fn band(
         if let Some((name, colour)) = who(from) {
             let dt = trajectory.header.dt;
             let [a, b] =
-                [from as f64 * dt, (step as f64 * dt).min(chart.time[1])].map(|t| chart.across(t));
+                [from as f64 * dt, (step as f64 * dt).min(chart.span[1])].map(|t| chart.across(t));
             group = group.add(rectangle([a, y], [(b - a).max(0.6), BAND], colour));
             if text_width(name, 10.5) + 8.0 <= b - a {
                 let at = [(a + b) / 2.0, y + 13.8];
@@ -121,12 +121,12 @@ pub(super) fn event_labels(trajectory: &Trajectory, character: usize, chart: &Ch
     for event in trajectory
         .events
         .iter()
-        .filter(|e| e.character == character && e.time <= chart.time[1] + 1e-3)
+        .filter(|e| e.character == character && e.time <= chart.span[1] + 1e-3)
     {
         let Some((full, colour)) = event_text(event) else {
             continue;
         };
-        let x = chart.across(event.time.clamp(chart.time[0], chart.time[1]));
+        let x = chart.across(event.time.clamp(chart.span[0], chart.span[1]));
         let text = shortened(&full, 10.5, 200.0);
         let width = text_width(&text, 10.5) + 10.0;
         let left = x + width > chart.at[0] + chart.size[0] + MARGIN;

@@ -34,6 +34,11 @@ fn controllers() {
 }
 
 #[test]
+fn compare() {
+    insta::assert_snapshot!(help("compare --help"));
+}
+
+#[test]
 fn render() {
     insta::assert_snapshot!(help("render --help"));
 }

@@ -5,8 +5,10 @@
 
 mod bad_files;
 mod bad_usage;
+mod compare;
 mod help;
 mod output;
+mod preconditions;
 mod run;
 mod shell;
 mod train;

@@ -166,6 +166,71 @@ fn the_pool_is_listed() {
         .stdout(predicate::str::contains("  takes over where  always"));
 }
 
+/// A learned pre-condition is listed as one, and told with its score when it refuses.
+#[test]
+fn what_was_learned_is_said_to_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let digest = aplomb::framework::model::Model::load("humanoid")
+        .unwrap()
+        .digest();
+    // 0.2 − v: a probability of 1/2 at 0.2 m/s, the more the slower.
+    let boundary = format!(
+        r#"(controller: "balance", character: "humanoid", character_digest: "{digest}",
+            features: ["com_velocity_x"], mean: [0], scale: [1],
+            decision: Polynomial(degree: 1, coefficients: [0.2, -1]),
+            calibration: (slope: -4, offset: 0), provenance: "Written by hand.")"#
+    );
+    write("balance.boundary.ron", &boundary);
+    let pool = r#"(name: "x", fallback: "rest", controllers: [
+        Learned(controller: "skills/balance.ron", boundary: "balance.boundary.ron", confident: true),
+        File("skills/rest.ron"),
+    ])"#;
+    write("x.ron", pool);
+    let told = |arguments: &str| {
+        let run = called(arguments)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert!(run.status.success(), "{run:?}");
+        String::from_utf8(run.stdout).unwrap()
+    };
+    let rows: Value = serde_json::from_str(&told("controllers --repertoire x.ron --json")).unwrap();
+    assert_eq!(
+        (&rows[0]["learned"], &rows[0]["confident"]),
+        (&true.into(), &true.into())
+    );
+    assert_eq!(
+        (&rows[1]["learned"], &rows[1]["confident"]),
+        (&false.into(), &false.into())
+    );
+    let text = told("controllers --repertoire x.ron");
+    assert!(text.contains("learned, bids by probability\n"), "{text}");
+    assert!(
+        text.contains("and svm of balance (1 feature, poly1))"),
+        "{text}"
+    );
+    let text = told("run --repertoire x.ron --duration 1 --explain --json");
+    let run: Value = serde_json::from_str(&text).unwrap();
+    let bids = &run["events"][0]["bids"];
+    let expected = 10.0 / (1.0 + (-0.8_f64).exp());
+    let found = bids[0]["suitability"].as_f64().unwrap();
+    assert!((found - expected).abs() < 0.1, "{bids}");
+    assert_eq!(bids[1]["suitability"].to_string(), "1", "{bids}");
+    let text = told("run --repertoire x.ron --duration 0.1 --explain");
+    assert!(
+        text.contains("balance  bids 6.9") && text.contains("rest     bids 1\n"),
+        "{text}"
+    );
+    write(
+        "balance.boundary.ron",
+        &boundary.replace("0.2, -1", "-0.2, -1"),
+    );
+    let text = told("run --repertoire x.ron --duration 0.1 --explain");
+    let refusal = "balance  refuses: svm of balance (1 feature, poly1) (is -0.2";
+    assert!(text.contains(refusal), "{text}");
+}
+
 #[test]
 fn a_repertoire_can_be_replaced() {
     let folder = tempfile::tempdir().unwrap();

@@ -18,6 +18,12 @@
 //!
 //! - [`standing`]: how well a standing controller takes pushes at its limit
 //!
+//! Learned pre-conditions:
+//!
+//! - [`rollouts`]: what a controller can really do, as a dataset
+//! - [`learning`]: samples of successes and failures → support vector machine, nearest neighbour
+//! - [`report`]: how often a learned pre-condition is right, beside its rivals
+//!
 //! All of them:
 //!
 //! - [`tune`]: controller file ↔ point of the unit cube
@@ -31,8 +37,11 @@ pub mod falling;
 pub mod impact;
 pub mod improve;
 pub mod journal;
+pub mod learning;
 pub mod pushes;
+pub mod report;
 pub mod rising;
+pub mod rollouts;
 pub mod skill;
 pub mod standing;
 pub mod starts;

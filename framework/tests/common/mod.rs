@@ -20,6 +20,8 @@ use serde::Deserialize;
 pub(crate) struct Puppet {
     contract: Contract,
     torque: f64,
+    /// Its bid, whatever its contract says.
+    bid: Option<f64>,
     entered: Arc<AtomicUsize>,
     obeyed: Arc<AtomicUsize>,
 }
@@ -38,6 +40,7 @@ impl Puppet {
             name: name.to_owned(),
             weight,
             precondition,
+            confident: false,
             postcondition: Condition::Never,
             expected: Condition::Always,
             hold: 0.0,
@@ -48,6 +51,7 @@ impl Puppet {
         Self {
             contract,
             torque: 0.0,
+            bid: None,
             entered: Arc::default(),
             obeyed: Arc::default(),
         }
@@ -79,6 +83,11 @@ impl Puppet {
         self
     }
 
+    pub(crate) fn that_bids(mut self, bid: f64) -> Self {
+        self.bid = Some(bid);
+        self
+    }
+
     /// How often it, or a clone, was entered.
     pub(crate) fn entries(&self) -> impl Fn() -> usize + use<> {
         let entered = Arc::clone(&self.entered);
@@ -105,6 +114,7 @@ impl Spec for PuppetSpec {
         Ok(Box::new(Puppet {
             contract,
             torque,
+            bid: None,
             entered,
             obeyed,
         }))
@@ -114,6 +124,10 @@ impl Spec for PuppetSpec {
 impl Controller for Puppet {
     fn contract(&self) -> &Contract {
         &self.contract
+    }
+
+    fn suitability(&self, now: &Sensors) -> f64 {
+        self.bid.unwrap_or_else(|| self.contract.suitability(now))
     }
 
     fn enter(&mut self, _: &Sensors) {

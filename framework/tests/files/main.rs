@@ -5,6 +5,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod boundaries;
 mod recordings;
 mod repertoires;
 mod scenarios;

@@ -74,6 +74,23 @@ fn a_pool_without_a_valid_fallback_is_refused() {
     assert!(Supervisor::new("p", Vec::new(), "rest").is_err());
 }
 
+#[test]
+fn what_is_no_number_or_below_zero_never_wins() {
+    let now = sensors();
+    for bid in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -3.0, -0.0] {
+        let broken = Puppet::new("a", 5, Condition::Always).that_bids(bid);
+        let mind = supervisor(vec![broken, fallback()]);
+        assert_eq!(mind.arbitrate(&now), 1, "{bid}");
+        let told = mind.bids(&now).remove(0);
+        assert_eq!(told.suitability, 0.0);
+        assert_eq!(told.refusal.as_deref(), Some("declines"), "{bid}");
+    }
+    let bids = [("a", 2.25), ("b", 2.5), ("c", 2.5)];
+    let pool = bids.map(|(name, bid)| Puppet::new(name, 5, Condition::Always).that_bids(bid));
+    let mind = supervisor(pool.into_iter().chain([fallback()]).collect());
+    assert_eq!(mind.arbitrate(&now), 1, "the earlier of the highest");
+}
+
 /// A member of a random pool: weight, highest velocity of its pre-condition, manner.
 fn any_member() -> impl Strategy<Value = (u32, Option<f64>, u8)> {
     (0..4_u32, prop::option::of(-1.0..1.0_f64), 0..3_u8)
@@ -119,7 +136,7 @@ proptest! {
         prop_assert!(bids[winner] > 0);
         prop_assert_eq!(winner, bids.iter().position(|b| *b == highest).unwrap());
         for (bid, expected) in mind.bids(&now).iter().zip(&bids) {
-            prop_assert_eq!(bid.suitability, *expected);
+            prop_assert_eq!(bid.suitability, f64::from(*expected));
             prop_assert_eq!(bid.refusal.is_some(), *expected == 0);
         }
         // Polling has no side effect.
@@ -153,8 +170,8 @@ proptest! {
                 prop_assert!(time - failed >= RECOVERY - 1e-9, "{} recovers", to);
             }
             let bid = |name: &str| bids.iter().find(|b| b.controller == name).unwrap().suitability;
-            let highest = bids.iter().map(|b| b.suitability).max().unwrap();
-            prop_assert!(bid(to) == highest && highest > 0, "{} of {}", bid(to), highest);
+            let highest = bids.iter().map(|b| b.suitability).fold(0.0, f64::max);
+            prop_assert!(bid(to) == highest && highest > 0.0, "{} of {}", bid(to), highest);
             since = *time;
         }
     }

@@ -1,6 +1,7 @@
 //! `aplomb train`: searches and training, one file each.
 
 mod poses;
+mod preconditions;
 
 use std::io::Write;
 
@@ -16,12 +17,14 @@ use super::scene::CastArgs;
 #[derive(Debug, Subcommand)]
 pub(super) enum TrainCommand {
     Poses(poses::PosesArgs),
+    Preconditions(Box<preconditions::PreconditionsArgs>),
 }
 
 impl TrainCommand {
     pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
         match self {
             Self::Poses(args) => args.run(out),
+            Self::Preconditions(args) => args.run(out),
         }
     }
 }

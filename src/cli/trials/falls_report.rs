@@ -7,8 +7,8 @@ use std::io::Write;
 use anyhow::Result;
 use serde::Serialize;
 
-use super::statistics::median;
 use super::tally::Falls;
+use crate::cli::statistics::median;
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]

@@ -7,7 +7,6 @@ mod falls_report;
 mod plan;
 mod report;
 mod rising;
-mod statistics;
 mod tally;
 
 use std::io::Write;

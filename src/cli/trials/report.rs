@@ -10,8 +10,8 @@ use crate::cli::json::RunJson;
 
 use super::falls_report::FallsReport;
 use super::plan::Plan;
-use super::statistics::{median, percentile90, wilson};
 use super::tally::{Activations, Failure, Tally};
+use crate::cli::statistics::{median, percentile90, wilson};
 
 /// So many failures are told in text.
 const FAILURES_TOLD: usize = 10;

@@ -1,4 +1,4 @@
-//! What sums up numbers of many trials.
+//! What sums up numbers of many trials or tests.
 //!
 //! values → median, 90th percentile, largest; hits of so many → interval of the share.
 

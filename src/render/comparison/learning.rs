@@ -1,0 +1,100 @@
+//! Balanced accuracy against the size of the training set.
+
+use anyhow::{Result, ensure};
+use aplomb_training::report::{CurvePoint, Report};
+use svg::node::element::Group;
+
+use super::legend::{Legend, Mark};
+use super::{Figure, NEIGHBOUR, SVM, check_share};
+use crate::render::chart::{Chart, Style, range};
+use crate::render::style::document;
+
+/// Above so many decades only powers of ten are labelled.
+const DECADES: f64 = 2.2;
+const RADIUS: f64 = 4.0;
+
+/// # Errors
+/// A size of 0 or a share that is none.
+pub(super) fn figure(report: &Report) -> Result<Figure> {
+    let mut points = report.curve.clone();
+    points.sort_by_key(|p| p.train);
+    for p in &points {
+        ensure!(p.train > 0, "curve.train is 0; accepted: 1 and more");
+        check_share("curve.svm", p.svm)?;
+        check_share("curve.nn", p.nn)?;
+    }
+    let sizes = points.iter().map(|p| (p.train as f64).log10());
+    let percentages = points.iter().flat_map(|p| [100.0 * p.svm, 100.0 * p.nn]);
+    let [low, high] = range(percentages, 10.0);
+    let chart = Chart {
+        at: [62.0, 12.0],
+        size: [330.0, 250.0],
+        span: range(sizes, 0.5),
+        value: [low.max(0.0), high.min(100.0)],
+    };
+    let axes = Group::new()
+        .add(chart.rows("balanced accuracy (%)"))
+        .add(chart.columns(&ticks(chart.span), Some("training samples (logarithmic)")));
+    let mut group = Group::new().add(axes).add(chart.frame());
+    let mut legend = Legend::new([chart.at[0] + chart.size[0] + 18.0, 22.0]);
+    type Accuracy = fn(&CurvePoint) -> f64;
+    let rivals: [(_, _, _, _, Accuracy); 2] = [
+        ("SVM", Mark::Circle, SVM, "", |p| p.svm),
+        ("nearest neighbour", Mark::Diamond, NEIGHBOUR, "5,3", |p| {
+            p.nn
+        }),
+    ];
+    for (name, mark, colour, dashes, accuracy) in rivals {
+        let style = Style {
+            colour,
+            width: 2.0,
+            dashes,
+        };
+        let place = |p: &CurvePoint| {
+            let [x, y] = chart.inside([(p.train as f64).log10(), 100.0 * accuracy(p)]);
+            [chart.at[0] + x, chart.at[1] + y]
+        };
+        let places: Vec<_> = points.iter().map(place).collect();
+        group = group.add(style.polyline(&places));
+        for at in places {
+            group = group.add(mark.draw(at, RADIUS, colour));
+        }
+        legend = legend.entry(name, |[x, y]| {
+            let sample = Group::new().add(style.sample([x, y], 22.0));
+            sample.add(mark.draw([x + 11.0, y], RADIUS, colour))
+        });
+    }
+    let (first, last) = (&points[0], &points[points.len() - 1]);
+    let caption = format!(
+        "Balanced accuracy on the {} test samples against the number of samples trained on; the \
+         SVM with the kernel, C and gamma of the whole training set. From {} to {} samples it goes \
+         from {:.1} to {:.1} %, the nearest neighbour from {:.1} to {:.1} %.",
+        report.test,
+        first.train,
+        last.train,
+        100.0 * first.svm,
+        100.0 * last.svm,
+        100.0 * first.nn,
+        100.0 * last.nn
+    );
+    Ok(Figure {
+        title: "Accuracy against training size",
+        svg: document([560.0, 308.0], group.add(legend.finish())),
+        caption,
+    })
+}
+
+/// 1, 2 and 5 times powers of ten, or those alone over a wide range, by their logarithm.
+fn ticks([low, high]: [f64; 2]) -> Vec<(f64, String)> {
+    let times: &[f64] = if high - low > DECADES {
+        &[1.0]
+    } else {
+        &[1.0, 2.0, 5.0]
+    };
+    let powers = low.floor() as i32..=high.ceil() as i32;
+    let sizes = powers.flat_map(|p| times.iter().map(move |t| t * 10_f64.powi(p)));
+    sizes
+        .map(|size| (size.log10(), size.to_string()))
+        .filter(|(log, _)| (low..=high).contains(log))
+        .collect()
+}

@@ -1,0 +1,395 @@
+//! From samples to a pre-condition and to what is known of it.
+//!
+//! training set → choice of settings → machine → calibration → [`Learned`]; test set → [`Report`].
+
+use std::hint::black_box;
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use aplomb_framework::{Error, Result};
+use rayon::prelude::*;
+
+use super::calibration::Calibration;
+use super::cross_validation::{Choice, choose};
+use super::dataset::Dataset;
+use super::learned::Learned;
+use super::machine::{Kernel, Settings, train as train_machine};
+use super::metrics::{area, log_loss, metrics, roc, thinned};
+use super::neighbour::Neighbours;
+use super::slice::slice;
+use super::split;
+use super::standardise::Scaling;
+use crate::report::{CurvePoint, Metrics, NeighbourReport, Report, SvmReport};
+
+/// Queries that are timed, one after another.
+const TIMED: usize = 2_000;
+/// Queries of the nearest neighbour that are timed.
+const TIMED_NEIGHBOURS: usize = 200;
+
+/// Whose samples they are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Subject<'a> {
+    /// The controller.
+    pub controller: &'a str,
+    /// Its character.
+    pub character: &'a str,
+    /// Seed of the rollouts; also fixes the folds of the cross-validation.
+    pub seed: u64,
+}
+
+/// What is tried and reported.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LearnSettings {
+    /// Kernels to choose from; see [`Kernel::allowed`].
+    pub kernels: Vec<Kernel>,
+    /// Sizes of training sets for the curve. Larger ones than the training set are left out, and
+    /// those in which there are not two of each class.
+    pub curve_sizes: Vec<usize>,
+}
+
+impl Default for LearnSettings {
+    fn default() -> Self {
+        Self {
+            kernels: Kernel::ALL.to_vec(),
+            curve_sizes: Vec::new(),
+        }
+    }
+}
+
+/// What is being done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Cross-validation, by candidates.
+    Choice,
+    /// The machine on all samples.
+    Training,
+    /// The test set.
+    Testing,
+    /// Smaller training sets, by sizes.
+    Curve,
+}
+
+/// How far it is: `done` of `of` are finished.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Progress {
+    /// What is being done.
+    pub stage: Stage,
+    /// Finished.
+    pub done: usize,
+    /// To do in this stage.
+    pub of: usize,
+}
+
+/// Learns a pre-condition and measures it on the test set, beside the nearest neighbour and what the
+/// hand-made pre-condition `manual` says of each test sample. `watch` sees every step and may end the
+/// work, which then has no result.
+///
+/// All but wall-clock times follows from the arguments, whatever the number of threads.
+///
+/// # Errors
+/// [`Error::Invalid`] if the sets cannot be learned from or compared (see [`split::check`]), if
+/// `manual` has another length than the test set, if there is no kernel to choose from, or if the
+/// scores do not tell successes from failures.
+pub fn learn(
+    subject: Subject,
+    train: &Dataset,
+    test: &Dataset,
+    manual: &[bool],
+    settings: &LearnSettings,
+    mut watch: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Option<(Learned, Report)>> {
+    split::check(train, test)?;
+    if manual.len() != test.rows.len() {
+        let accepted = format!("{}, one for each test sample", test.rows.len());
+        let place = "hand-made pre-condition";
+        return Err(Error::invalid(place, "verdicts", manual.len(), accepted));
+    }
+    let scaling = Scaling::of(&train.rows);
+    let rows = scaling.apply_all(&train.rows);
+
+    let clock = Instant::now();
+    let chosen = choose(
+        &rows,
+        &train.success,
+        &settings.kernels,
+        subject.seed,
+        |done, of| watch(progress(Stage::Choice, done, of)),
+    )?;
+    let Some(choice) = chosen else {
+        return Ok(None);
+    };
+    let calibration = Calibration::of(&choice.scores, &train.success[..choice.scores.len()])?;
+    let choice_s = clock.elapsed().as_secs_f64();
+
+    if watch(progress(Stage::Training, 0, 1)).is_break() {
+        return Ok(None);
+    }
+    let clock = Instant::now();
+    let machine = train_machine(&rows, &train.success, &choice.settings)?;
+    let train_s = clock.elapsed().as_secs_f64();
+    let learned = Learned::new(&train.features, scaling, machine, calibration);
+
+    if watch(progress(Stage::Testing, 0, 1)).is_break() {
+        return Ok(None);
+    }
+    let scores: Vec<f64> = test.rows.par_iter().map(|r| learned.score(r)).collect();
+    let svm = svm_report(&learned, &choice, &scores, test, [train_s, choice_s]);
+    let nn = neighbour_report(train, test)?;
+    let mut curve = Vec::new();
+    let sizes: Vec<usize> = sizes(settings, train);
+    for (done, size) in sizes.iter().enumerate() {
+        if watch(progress(Stage::Curve, done, sizes.len())).is_break() {
+            return Ok(None);
+        }
+        curve.push(if *size == train.rows.len() {
+            CurvePoint {
+                train: *size,
+                svm: svm.metrics.balanced_accuracy,
+                nn: nn.metrics.balanced_accuracy,
+                train_s,
+            }
+        } else {
+            curve_point(&train.head(*size), test, &choice.settings)?
+        });
+    }
+    let report = Report {
+        controller: subject.controller.to_owned(),
+        character: subject.character.to_owned(),
+        seed: subject.seed,
+        train: train.rows.len(),
+        test: test.rows.len(),
+        positive_rate: train.positive_rate(),
+        test_positive_rate: test.positive_rate(),
+        features: train.features.clone(),
+        svm,
+        nn,
+        manual: metrics(manual, &test.success),
+        majority: majority(train, test),
+        roc: thinned(&roc(&scores, &test.success)),
+        curve,
+        slice: slice(&learned, train, test),
+    };
+    Ok(Some((learned, report)))
+}
+
+fn progress(stage: Stage, done: usize, of: usize) -> Progress {
+    Progress { stage, done, of }
+}
+
+fn svm_report(
+    learned: &Learned,
+    choice: &Choice,
+    scores: &[f64],
+    test: &Dataset,
+    [train_s, choice_s]: [f64; 2],
+) -> SvmReport {
+    let probability: Vec<f64> = scores.iter().map(|s| learned.probability(*s)).collect();
+    let timed = &test.rows[..test.rows.len().min(TIMED)];
+    let clock = Instant::now();
+    for row in timed {
+        black_box(learned.score(black_box(row)));
+    }
+    let query_us = micros_each(clock, timed.len());
+    SvmReport {
+        kernel: choice.settings.kernel.to_string(),
+        solver: learned.machine.solver.to_owned(),
+        c: choice.settings.c,
+        gamma: choice.settings.gamma,
+        metrics: of_scores(scores, &test.success),
+        auc: area(&roc(scores, &test.success)),
+        log_loss: log_loss(&probability, &test.success),
+        support_vectors: learned.machine.support.len(),
+        train_s,
+        choice_s,
+        query_us,
+    }
+}
+
+fn neighbour_report(train: &Dataset, test: &Dataset) -> Result<NeighbourReport> {
+    let scaling = Scaling::of(&train.rows);
+    let neighbours = Neighbours::new(&scaling.apply_all(&train.rows), &train.success)?;
+    let rows = scaling.apply_all(&test.rows);
+    let timed = rows.len().min(TIMED_NEIGHBOURS);
+    let clock = Instant::now();
+    for row in rows[..timed].chunks(1) {
+        black_box(neighbours.predict(black_box(row))?);
+    }
+    let query_us = micros_each(clock, timed);
+    Ok(NeighbourReport {
+        metrics: metrics(&neighbours.predict(&rows)?, &test.success),
+        query_us,
+    })
+}
+
+/// Trained with the settings of the whole, standardised and measured like the whole.
+fn curve_point(train: &Dataset, test: &Dataset, settings: &Settings) -> Result<CurvePoint> {
+    let scaling = Scaling::of(&train.rows);
+    let (rows, tested) = (
+        scaling.apply_all(&train.rows),
+        scaling.apply_all(&test.rows),
+    );
+    let clock = Instant::now();
+    let machine = train_machine(&rows, &train.success, settings)?;
+    let train_s = clock.elapsed().as_secs_f64();
+    let scores: Vec<f64> = tested.par_iter().map(|z| machine.score(z)).collect();
+    let neighbours = Neighbours::new(&rows, &train.success)?;
+    let nearest = metrics(&neighbours.predict(&tested)?, &test.success);
+    Ok(CurvePoint {
+        train: rows.len(),
+        svm: of_scores(&scores, &test.success).balanced_accuracy,
+        nn: nearest.balanced_accuracy,
+        train_s,
+    })
+}
+
+/// The sizes of the curve that can be trained on.
+fn sizes(settings: &LearnSettings, train: &Dataset) -> Vec<usize> {
+    let possible = |size: &usize| {
+        let (successes, failures) = train.head(*size).counts();
+        *size <= train.rows.len() && successes.min(failures) >= 2
+    };
+    let sizes = settings.curve_sizes.iter().copied();
+    sizes.filter(possible).collect()
+}
+
+fn of_scores(scores: &[f64], truth: &[bool]) -> Metrics {
+    let predicted: Vec<bool> = scores.iter().map(|s| *s >= 0.0).collect();
+    metrics(&predicted, truth)
+}
+
+/// Accuracy on the test set of the training set's more frequent class.
+fn majority(train: &Dataset, test: &Dataset) -> f64 {
+    let rate = test.positive_rate();
+    if train.positive_rate() >= 0.5 {
+        rate
+    } else {
+        1.0 - rate
+    }
+}
+
+fn micros_each(clock: Instant, count: usize) -> f64 {
+    clock.elapsed().as_secs_f64() * 1e6 / count.max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learning::synthetic::rings;
+
+    const SUBJECT: Subject = Subject {
+        controller: "balance",
+        character: "humanoid",
+        seed: 7,
+    };
+
+    fn with_names(mut set: Dataset) -> Dataset {
+        let names = ["com_velocity_x", "com_offset", "angle.knee_r"];
+        set.features = names.map(str::to_owned).to_vec();
+        set
+    }
+
+    fn sets() -> (Dataset, Dataset) {
+        (with_names(rings(300, 3, 1)), with_names(rings(700, 3, 2)))
+    }
+
+    fn learned(kernels: &str, threads: usize) -> (Learned, Report) {
+        let (train, test) = sets();
+        let manual: Vec<bool> = test.rows.iter().map(|row| row[0].abs() < 1.0).collect();
+        let settings = LearnSettings {
+            kernels: Kernel::allowed(kernels).unwrap(),
+            curve_sizes: vec![1, 100, 300, 1000],
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let go = |_| ControlFlow::Continue(());
+        let work = || learn(SUBJECT, &train, &test, &manual, &settings, go);
+        pool.unwrap().install(work).unwrap().unwrap()
+    }
+
+    fn without_times((learned, mut report): (Learned, Report)) -> (Learned, Report) {
+        report.svm.train_s = 0.0;
+        report.svm.choice_s = 0.0;
+        report.svm.query_us = 0.0;
+        report.nn.query_us = 0.0;
+        report.curve.iter_mut().for_each(|p| p.train_s = 0.0);
+        (learned, report)
+    }
+
+    #[test]
+    fn the_report_is_whole_and_the_same_on_any_number_of_threads() {
+        let (one, two) = (learned("auto", 1), learned("auto", 2));
+        let (learned, report) = &one;
+        assert!(report.svm.metrics.balanced_accuracy > 0.9, "{report:?}");
+        assert!(report.svm.metrics.accuracy > report.majority, "{report:?}");
+        assert!(
+            report.svm.auc > 0.95 && report.svm.log_loss < 0.3,
+            "{report:?}"
+        );
+        assert!(report.nn.metrics.accuracy > 0.75, "{report:?}");
+        assert!(report.svm.query_us > 0.0 && report.nn.query_us > 0.0);
+        assert_eq!(report.svm.solver, "linfa-svm");
+        // A ball is a polynomial of degree 2.
+        assert!(report.svm.kernel.starts_with("poly"), "{report:?}");
+        assert!(learned.slope < 0.0);
+        let sizes: Vec<usize> = report.curve.iter().map(|p| p.train).collect();
+        assert_eq!(sizes, [100, 300]);
+        assert_eq!(report.curve[1].svm, report.svm.metrics.balanced_accuracy);
+        assert!(report.manual.accuracy > 0.5 && report.manual.accuracy < 0.9);
+        let slice = report.slice.as_ref().unwrap();
+        assert_eq!((slice.x.0.as_str(), slice.x.1.len()), ("com_offset", 41));
+        assert_eq!(
+            (slice.y.0.as_str(), slice.y.1.len()),
+            ("com_velocity_x", 41)
+        );
+        assert_eq!((slice.probability.len(), slice.samples.len()), (41, 500));
+        assert!(slice.probability[20][20] > 0.9 && slice.probability[0][0] < 0.5);
+        assert_eq!(without_times(one.clone()), without_times(two));
+    }
+
+    #[test]
+    fn a_radial_machine_is_learned_if_asked_for() {
+        let (learned, report) = learned("rbf", 2);
+        assert_eq!(report.svm.kernel, "rbf");
+        assert_eq!(learned.coefficients, None);
+        assert!(report.svm.metrics.balanced_accuracy > 0.85, "{report:?}");
+    }
+
+    #[test]
+    fn the_watch_may_end_the_work_at_every_step() {
+        let (train, test) = sets();
+        let manual = vec![true; test.rows.len()];
+        let settings = LearnSettings {
+            kernels: vec![Kernel::Linear, Kernel::Poly2],
+            curve_sizes: vec![50],
+        };
+        for last in [Stage::Choice, Stage::Training, Stage::Testing, Stage::Curve] {
+            let watch = |progress: Progress| match progress.stage == last {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            };
+            let ended = learn(SUBJECT, &train, &test, &manual, &settings, watch);
+            assert_eq!(ended.unwrap(), None);
+        }
+    }
+
+    #[test]
+    fn wrong_arguments_are_refused() {
+        let (train, test) = sets();
+        let settings = LearnSettings::default();
+        let told = |train: &Dataset, manual: &[bool], settings: &LearnSettings| {
+            let go = |_| ControlFlow::Continue(());
+            let result = learn(SUBJECT, train, &test, manual, settings, go);
+            result.unwrap_err().to_string()
+        };
+        let manual = vec![true; test.rows.len()];
+        let found = told(&train, &manual[1..], &settings);
+        assert!(found.contains("verdicts is 699; accepted: 700"), "{found}");
+        let found = told(&test, &manual, &settings);
+        assert!(found.contains("row is in both sets"), "{found}");
+        let none = LearnSettings {
+            kernels: Vec::new(),
+            ..settings
+        };
+        let found = told(&train, &manual, &none);
+        assert!(found.contains("kernels"), "{found}");
+    }
+}

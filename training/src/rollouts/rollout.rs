@@ -1,0 +1,317 @@
+//! One rollout (2001 paper, "Determining pre-conditions by learning"): from a nominal start a random
+//! disturbance brings the character to some state; there its features are recorded and the controller
+//! takes over alone; the label is whether it succeeds: reaches its post-condition in time without failing, or,
+//! if it has none, is standing when the time is up, whatever it expects of itself.
+//!
+//! random stream → start, force, offsets → run → [`Sample`].
+
+use std::sync::Arc;
+
+use aplomb_controllers::servo::Servo;
+use aplomb_framework::Result;
+use aplomb_framework::condition::Condition;
+use aplomb_framework::contract::Contract;
+use aplomb_framework::controller::Controller;
+use aplomb_framework::file::Source;
+use aplomb_framework::model::Model;
+use aplomb_framework::registry::Registry;
+use aplomb_framework::scenario::{Scenario, Start};
+use aplomb_framework::sensors::Sensors;
+use aplomb_framework::simulation::Simulation;
+use aplomb_framework::supervisor::Supervisor;
+use aplomb_framework::trajectory::EventKind;
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+
+use super::disturbance::{Disturbance, During, Nominal};
+use crate::impact::Impact;
+use crate::skill::Skill;
+
+/// s for which it is disturbed at least.
+const SOONEST: f64 = 0.005;
+
+/// What a rollout tells.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sample {
+    /// The features' values where the controller took over; not a number where one has none.
+    pub features: Vec<f64>,
+    /// Whether the controller succeeded.
+    pub success: bool,
+    /// Whether its hand-made pre-condition held there.
+    pub manual: bool,
+}
+
+/// All that rollouts of a controller share.
+#[derive(Debug, Clone)]
+pub struct Trial {
+    /// The distribution.
+    pub disturbance: Disturbance,
+    model: Arc<Model>,
+    repertoire: Supervisor,
+    /// The controller alone, wherever it is; lying limp when it has ended.
+    alone: Supervisor,
+    contract: Contract,
+    /// What it answers to.
+    command: String,
+}
+
+impl Trial {
+    /// Of a controller in its repertoire.
+    ///
+    /// # Errors
+    /// A controller that cannot be built.
+    pub fn new(skill: &Skill, disturbance: Disturbance, registry: &Registry) -> Result<Self> {
+        let mut file = skill.file.clone();
+        file.contract.precondition = Condition::Always;
+        // Only on command, so that it is left when it has ended.
+        file.contract.weight = 0;
+        if skill.contract.postcondition == Condition::Never {
+            // It never gives way by itself: what it can do shows when nobody takes over from it.
+            file.contract.expected = Condition::Always;
+        }
+        let place = Source::new(skill.name().to_owned(), "");
+        let controller = registry.build(&place, &file, &skill.model)?;
+        let limp = vec![0.0; skill.model.joint_count()];
+        let idle: Box<dyn Controller> = Box::new(Held::new("idle", &skill.model, limp, 0.0));
+        Ok(Self {
+            disturbance,
+            model: Arc::clone(&skill.model),
+            repertoire: skill.mind.clone(),
+            alone: Supervisor::new("alone", vec![controller, idle], "idle")?,
+            command: skill.contract.commands[0].name.clone(),
+            contract: skill.contract.clone(),
+        })
+    }
+
+    /// The rollout of a random stream.
+    ///
+    /// # Errors
+    /// A character whose parts do not fit each other.
+    pub fn sample(&self, rng: &mut ChaCha8Rng) -> Result<Sample> {
+        let mut run = self.disturbed(rng)?;
+        run.set_mind(0, self.alone.clone());
+        run.command(0, &self.command)?;
+        run.step(); // it takes over with what is sensed in this step
+        let now = run.sensors(0);
+        let features = self.disturbance.features.iter();
+        let features = features.map(|f| f.value(now)).collect();
+        let manual = self.contract.precondition.holds(now);
+        let success = self.succeeds(run);
+        Ok(Sample {
+            features,
+            success,
+            manual,
+        })
+    }
+
+    /// The character, disturbed.
+    fn disturbed(&self, rng: &mut ChaCha8Rng) -> Result<Simulation> {
+        let d = &self.disturbance;
+        let nominal = &d.starts[rng.gen_range(0..d.starts.len())];
+        let mut scenario = Scenario::standing(&self.model.name, 60.0);
+        let target = self.pose(nominal, rng);
+        scenario.characters[0].start = Start {
+            x: 0.0,
+            lift: rng.gen_range(nominal.lift[0]..=nominal.lift[1]),
+            pitch: nominal.pitch + rng.gen_range(-1.0..=1.0) * nominal.tilt,
+            angles: self.named(&target),
+        };
+        let offset: Vec<f64> = target
+            .iter()
+            .map(|a| a + d.offset * rng.gen_range(-1.0..=1.0))
+            .collect();
+        let mind = match d.during[rng.gen_range(0..d.during.len())] {
+            During::Repertoire => self.repertoire.clone(),
+            During::Servos => {
+                let held: Box<dyn Controller> =
+                    Box::new(Held::new("held", &self.model, offset, 1.0));
+                Supervisor::new("held", vec![held], "held")?
+            }
+        };
+        let cast = vec![(Arc::clone(&self.model), mind)];
+        let mut run = Simulation::with_cast(&scenario, cast)?;
+        let link = &d.force.links[rng.gen_range(0..d.force.links.len())];
+        let magnitude = d.force.most * rng.gen_range(0.0..=1.0);
+        let rise = d.force.rise * rng.gen_range(-1.0..=1.0);
+        let sign = if rng.gen_range(0..2) == 0 { 1.0 } else { -1.0 };
+        let time = rng.gen_range(d.force.time[0]..=d.force.time[1]);
+        let impulse = magnitude * time;
+        run.shove(
+            0,
+            link,
+            [sign * impulse * rise.cos(), impulse * rise.sin()],
+            time,
+        )?;
+        run.run((time + rng.gen_range(d.pause[0]..=d.pause[1])).max(SOONEST));
+        Ok(run)
+    }
+
+    /// A start's angles: nominal, strayed, within the joints' ranges.
+    fn pose(&self, nominal: &Nominal, rng: &mut ChaCha8Rng) -> Vec<f64> {
+        let joints = self.model.joints();
+        joints
+            .map(|joint| {
+                let named = nominal.angles.iter().find(|(name, _)| {
+                    let rest = joint.name.strip_prefix(name.as_str());
+                    rest.is_some_and(|r| r.is_empty() || r.starts_with('_'))
+                });
+                let angle = named.map_or(0.0, |(_, a)| *a);
+                let strayed = angle + nominal.spread * rng.gen_range(-1.0..=1.0);
+                strayed.clamp(joint.range[0], joint.range[1])
+            })
+            .collect()
+    }
+
+    fn named(&self, angles: &[f64]) -> std::collections::BTreeMap<String, f64> {
+        let names = self.model.joints().map(|j| j.name.clone());
+        names.zip(angles.iter().copied()).collect()
+    }
+
+    /// Runs on until the controller has ended.
+    fn succeeds(&self, mut run: Simulation) -> bool {
+        let name = &self.contract.name;
+        let never = self.contract.postcondition == Condition::Never;
+        let mut impact = Impact::new(run.world().settings().dt);
+        let end = run.time() + self.disturbance.within;
+        let mut seen = 0;
+        loop {
+            let ended = run.events()[seen..].iter().find_map(|e| match &e.kind {
+                EventKind::Switch {
+                    from: Some(from),
+                    why,
+                    ..
+                } if from == name => Some(why == "succeeded"),
+                _ => None,
+            });
+            seen = run.events().len();
+            if let Some(succeeded) = ended {
+                return succeeded;
+            }
+            if run.time() >= end {
+                return never && run.outcome(0).standing;
+            }
+            if never && run.sensors(0).is_down() {
+                return false;
+            }
+            run.step();
+            if let Some(limit) = self.disturbance.unharmed {
+                impact.observe(run.sensors(0));
+                if impact.head > limit.head || impact.trunk > limit.trunk {
+                    return false;
+                }
+            }
+        }
+    }
+}
+
+/// A contract that accepts every state and never ends.
+fn everywhere(name: &str) -> Contract {
+    Contract {
+        name: name.to_owned(),
+        weight: 1,
+        precondition: Condition::Always,
+        postcondition: Condition::Never,
+        expected: Condition::Always,
+        hold: 0.0,
+        patience: f64::INFINITY,
+        commands: Vec::new(),
+        confident: false,
+    }
+}
+
+/// Servos that hold a pose, whatever happens; at strength 0 the character is limp.
+#[derive(Debug, Clone)]
+struct Held {
+    contract: Contract,
+    servo: Servo,
+    target: Vec<f64>,
+    strength: f64,
+}
+
+impl Held {
+    fn new(name: &str, model: &Model, target: Vec<f64>, strength: f64) -> Self {
+        Self {
+            contract: everywhere(name),
+            servo: Servo::new(model, 1.0, 1.0),
+            target,
+            strength,
+        }
+    }
+}
+
+impl Controller for Held {
+    fn contract(&self) -> &Contract {
+        &self.contract
+    }
+
+    fn enter(&mut self, _: &Sensors) {}
+
+    fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
+        self.servo.track(now, &self.target, self.strength, torques);
+    }
+
+    fn clone_box(&self) -> Box<dyn Controller> {
+        Box::new(self.clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rollouts::disturbance::shipped;
+    use rand::SeedableRng;
+
+    fn trial(controller: &str) -> Trial {
+        let model = Model::load("humanoid").unwrap();
+        let registry = aplomb_controllers::registry();
+        let skills = Skill::all("humanoid", &registry, &model).unwrap();
+        let skill = Skill::find(&skills, controller).unwrap();
+        let source = shipped(controller).unwrap();
+        let disturbance = Disturbance::parse(&source, &model).unwrap();
+        Trial::new(skill, disturbance, &registry).unwrap()
+    }
+
+    fn sample(trial: &Trial, stream: u64) -> Sample {
+        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        rng.set_stream(stream);
+        trial.sample(&mut rng).unwrap()
+    }
+
+    #[test]
+    fn a_stream_is_a_rollout() {
+        let trial = trial("balance");
+        let samples: Vec<Sample> = (0..6).map(|i| sample(&trial, i)).collect();
+        let again: Vec<Sample> = (0..6).rev().map(|i| sample(&trial, i)).collect();
+        assert!(samples.iter().eq(again.iter().rev()));
+        assert!(
+            samples
+                .iter()
+                .all(|s| s.features.iter().all(|x| x.is_finite()))
+        );
+        assert_ne!(samples[0].features, samples[1].features);
+    }
+
+    #[test]
+    fn who_is_not_disturbed_succeeds_and_who_lies_cannot_balance() {
+        let mut trial = trial("balance");
+        trial.disturbance.force.most = 0.0;
+        trial.disturbance.offset = 0.0;
+        trial.disturbance.starts[0].spread = 0.0;
+        trial.disturbance.starts[0].tilt = 0.0;
+        let stood = sample(&trial, 0);
+        assert!(stood.success && stood.manual);
+        trial.disturbance.starts[0].pitch = 1.5;
+        let lay = sample(&trial, 0);
+        assert!(!lay.success && !lay.manual);
+    }
+
+    #[test]
+    fn what_hurts_is_no_success() {
+        let mut trial = trial("fall");
+        trial.disturbance.force.most = 800.0;
+        let unhurt = (0..8).find(|i| sample(&trial, *i).success).unwrap();
+        let limit = trial.disturbance.unharmed.as_mut().unwrap();
+        (limit.head, limit.trunk) = (1.0, 1.0);
+        assert!(!sample(&trial, unhurt).success);
+    }
+}
