@@ -158,8 +158,10 @@ fn sets_and_distributions_that_teach_nothing_are_refused() {
     refused(&PUSHES.replace("[Servos]", "[]"), few, "during");
     refused(&PUSHES.replace("within: 1.5", "within: 1e9"), few, "within");
     refused(PUSHES, "--samples 3 --out o", "--samples");
-    refused(PUSHES, "--kernel cubic --out o", "poly3");
     refused(PUSHES, "rise --out o", "single controller");
+    let mut call = called("train preconditions balance --kernel cubic");
+    let known = predicate::str::contains("poly3");
+    call.assert().code(2).stderr(known);
 }
 
 #[test]
