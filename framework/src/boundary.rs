@@ -10,6 +10,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+pub use crate::boundary_bounds::monomials;
 pub use crate::boundary_decision::Decision;
 use crate::error::Result;
 use crate::feature::Feature;
@@ -56,6 +57,15 @@ pub struct Calibration {
     pub slope: f64,
     /// 0 where a score of 0 means one half.
     pub offset: f64,
+}
+
+impl Calibration {
+    /// Probability of success at a score, 0 to 1; 0 at what is not a number.
+    #[must_use]
+    pub fn probability(&self, score: f64) -> f64 {
+        let p = 1.0 / (1.0 + (self.slope * score + self.offset).exp());
+        if p.is_nan() { 0.0 } else { p }
+    }
 }
 
 impl Boundary {
@@ -117,12 +127,10 @@ impl Boundary {
         self.score_of(x)
     }
 
-    /// Calibrated probability of success at a score, 0 to 1; 0 at what is not a number.
+    /// As [`Calibration::probability`].
     #[must_use]
     pub fn probability(&self, score: f64) -> f64 {
-        let Calibration { slope, offset } = self.calibration;
-        let p = 1.0 / (1.0 + (slope * score + offset).exp());
-        if p.is_nan() { 0.0 } else { p }
+        self.calibration.probability(score)
     }
 }
 
@@ -142,7 +150,6 @@ impl fmt::Display for Boundary {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::boundary_bounds::monomials;
     use std::sync::LazyLock;
 
     /// A boundary of the humanoid over these features, with z = x.

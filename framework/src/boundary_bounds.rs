@@ -9,8 +9,10 @@ use crate::model::Model;
 /// Where a field stands, for messages.
 type Place<'a> = &'a dyn Fn(&str) -> String;
 
-/// Number of monomials in `features` variables up to `degree`.
-pub(crate) fn monomials(features: usize, degree: u8) -> usize {
+/// Number of monomials in so many features up to a degree: the coefficients of
+/// [`Decision::Polynomial`].
+#[must_use]
+pub fn monomials(features: usize, degree: u8) -> usize {
     (1..=usize::from(degree)).fold(1, |count, k| count * (features + k) / k)
 }
 

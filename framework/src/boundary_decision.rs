@@ -32,7 +32,8 @@ pub enum Decision {
 
 impl Decision {
     /// The score of normalised features.
-    pub(crate) fn value(&self, z: &[f64]) -> f64 {
+    #[must_use]
+    pub fn value(&self, z: &[f64]) -> f64 {
         match self {
             Self::Polynomial {
                 degree,

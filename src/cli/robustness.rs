@@ -4,7 +4,6 @@
 //! nothing.
 
 use std::io::Write;
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -158,11 +157,7 @@ impl RobustnessArgs {
                 );
                 let exercise = Exercise::new(skill, drill, |found| {
                     bar.set_position(before + found as u64);
-                    if stop.load(Ordering::Relaxed) {
-                        ControlFlow::Break(())
-                    } else {
-                        ControlFlow::Continue(())
-                    }
+                    work::going_on(stop)
                 })?;
                 if stop.load(Ordering::Relaxed) {
                     break;

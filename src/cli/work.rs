@@ -1,5 +1,6 @@
 //! Long work in parallel: the threads that do it, and Ctrl-C that ends it.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -22,6 +23,15 @@ impl Jobs {
     pub(super) fn threads(&self) -> Result<ThreadPool> {
         let threads = ThreadPoolBuilder::new().num_threads(self.jobs.map_or(0, |j| j as usize));
         threads.build().context("cannot start the threads")
+    }
+}
+
+/// Whether the work goes on: until the flag is raised.
+pub(super) fn going_on(stop: &AtomicBool) -> ControlFlow<()> {
+    if stop.load(Ordering::Relaxed) {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
     }
 }
 

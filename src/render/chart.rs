@@ -225,6 +225,20 @@ pub(super) struct Style {
 }
 
 impl Style {
+    /// Without gaps.
+    pub(super) const fn solid(colour: &'static str, width: f64) -> Self {
+        Self::dashed(colour, width, "")
+    }
+
+    /// Dashes and gaps in turn, px, as SVG's `stroke-dasharray`.
+    pub(super) const fn dashed(colour: &'static str, width: f64, dashes: &'static str) -> Self {
+        Self {
+            colour,
+            width,
+            dashes,
+        }
+    }
+
     /// Through the points.
     pub(super) fn polyline(&self, run: &[[f64; 2]]) -> Polyline {
         let line = Polyline::new()

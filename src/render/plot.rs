@@ -16,26 +16,10 @@ const RIGHT: f64 = 150.0;
 const HEIGHTS: [f64; 3] = [230.0, 110.0, 110.0];
 const GAP: f64 = 16.0;
 
-const COM_LINE: Style = Style {
-    colour: COM,
-    width: 2.0,
-    dashes: "",
-};
-const COP_LINE: Style = Style {
-    colour: FORCE,
-    width: 1.0,
-    dashes: "",
-};
-const CAPTURE_LINE: Style = Style {
-    colour: CAPTURE,
-    width: 1.5,
-    dashes: "5,3",
-};
-const REFERENCE_LINE: Style = Style {
-    colour: INK,
-    width: 1.3,
-    dashes: "1.5,2.5",
-};
+const COM_LINE: Style = Style::solid(COM, 2.0);
+const COP_LINE: Style = Style::solid(FORCE, 1.0);
+const CAPTURE_LINE: Style = Style::dashed(CAPTURE, 1.5, "5,3");
+const REFERENCE_LINE: Style = Style::dashed(INK, 1.3, "1.5,2.5");
 
 /// The plot and its size; `width` in px.
 pub(super) fn plot(

@@ -9,16 +9,16 @@
 //! number. A last line without an end is of a generation that was not finished.
 
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use aplomb_framework::file::{read_bounded, write_atomically};
 use aplomb_framework::{Error, Result};
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::exercise::Score;
+use crate::growing;
 
 /// The largest journal that is read: 256 MiB, some millions of evaluations.
 const LARGEST: u64 = 1 << 28;
@@ -58,8 +58,11 @@ impl Journal {
     /// [`Error::Write`].
     pub fn begin(path: &Path, header: &Header, base: &str) -> Result<Self> {
         let text = format!("{}\n{base}\n", first_line(header));
-        write_atomically(path, text.as_bytes())?;
-        Self::open(path, BTreeMap::new())
+        Ok(Self::new(
+            path,
+            growing::begin(path, &text)?,
+            BTreeMap::new(),
+        ))
     }
 
     /// Goes on with a journal. Also returns the controller that its search began with.
@@ -67,9 +70,7 @@ impl Journal {
     /// # Errors
     /// [`Error::Read`] if there is none; [`Error::Invalid`] if it is of another search, or is none.
     pub fn resume(path: &Path, header: &Header) -> Result<(Self, String)> {
-        let bytes = read_bounded(path, LARGEST)?;
-        let end = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
-        let text = String::from_utf8_lossy(&bytes[..end]);
+        let (text, end) = growing::whole_lines(path, LARGEST)?;
         let mut lines = text.lines();
         check(path, lines.next().unwrap_or_default(), header)?;
         let base = lines.next().unwrap_or_default().to_owned();
@@ -83,23 +84,18 @@ impl Journal {
                 known.insert(hash, score);
             }
         }
-        let journal = Self::open(path, known)?;
-        let cut = journal.scores().file.set_len(end as u64);
-        cut.map_err(|e| journal.failed(&e))?;
-        Ok((journal, base))
+        Ok((Self::new(path, growing::go_on(path, end)?, known), base))
     }
 
-    fn open(path: &Path, known: BTreeMap<u64, Score>) -> Result<Self> {
-        let file = OpenOptions::new().append(true).open(path);
-        let file = file.map_err(|e| failed(path, &e))?;
-        Ok(Self {
+    fn new(path: &Path, file: File, known: BTreeMap<u64, Score>) -> Self {
+        Self {
             path: path.to_owned(),
             scores: Mutex::new(Scores {
                 file,
                 known,
                 fresh: BTreeMap::new(),
             }),
-        })
+        }
     }
 
     /// The score of a point of the unit cube: the journal's, or else what `measure` finds.
@@ -139,24 +135,13 @@ impl Journal {
         let line: Vec<String> = fresh.iter().map(entry).collect();
         // In one call: a line is there whole, or without its end.
         let written = scores.file.write_all((line.join(" ") + "\n").as_bytes());
-        written.map_err(|e| self.failed(&e))?;
+        written.map_err(|e| growing::failed(&self.path, &e))?;
         scores.known.extend(fresh);
         Ok(())
     }
 
     fn scores(&self) -> MutexGuard<'_, Scores> {
         self.scores.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn failed(&self, error: &std::io::Error) -> Error {
-        failed(&self.path, error)
-    }
-}
-
-fn failed(path: &Path, error: &std::io::Error) -> Error {
-    Error::Write {
-        path: path.to_owned(),
-        reason: error.to_string(),
     }
 }
 

@@ -34,6 +34,7 @@ pub mod cma_es;
 pub mod dimension;
 pub mod exercise;
 pub mod falling;
+mod growing;
 pub mod impact;
 pub mod improve;
 pub mod journal;

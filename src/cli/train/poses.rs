@@ -3,7 +3,6 @@
 //! arguments → skill → search → controller file and journal. The number of threads changes nothing.
 
 use std::io::{IsTerminal, Write, stderr};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -148,11 +147,7 @@ impl PosesArgs {
         let mut bars = Bars::new(self);
         let found = improve::improve(skill, plan, |stage| {
             bars.show(stage);
-            if stop.load(Ordering::Relaxed) {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
+            work::going_on(stop)
         });
         bars.bar.finish_and_clear();
         let found = if self.resume {

@@ -5,9 +5,8 @@
 
 use std::fs;
 use std::io::Write;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
@@ -125,6 +124,7 @@ impl PreconditionsArgs {
                 chosen.len()
             );
         }
+        let registry = aplomb::controllers::registry();
         let mut trials = Vec::with_capacity(chosen.len());
         for skill in chosen {
             let source = match &self.disturbance {
@@ -132,7 +132,6 @@ impl PreconditionsArgs {
                 None => disturbance::shipped(skill.name())?,
             };
             let disturbance = Disturbance::parse(&source, &skill.model)?;
-            let registry = aplomb::controllers::registry();
             trials.push((skill, Trial::new(skill, disturbance, &registry)?, source));
         }
         fs::create_dir_all(&self.out)
@@ -168,17 +167,14 @@ impl PreconditionsArgs {
         stop: &AtomicBool,
     ) -> Result<Option<Row>> {
         let begun = Instant::now();
-        let mut sets = Vec::with_capacity(2);
-        for (part, count) in [(Part::Train, self.samples), (Part::Test, self.test)] {
-            let Some(set) = self.gather(skill, trial, source, (part, count), stop)? else {
-                return Ok(None);
-            };
-            sets.push(set);
-        }
-        let rollouts_s = begun.elapsed().as_secs_f64();
-        let [train, test] = &sets[..] else {
+        let gather = |part| self.gather(skill, trial, source, part, stop);
+        let Some(train) = gather(Part::Train)? else {
             return Ok(None);
         };
+        let Some(test) = gather(Part::Test)? else {
+            return Ok(None);
+        };
+        let rollouts_s = begun.elapsed().as_secs_f64();
         let subject = Subject {
             controller: skill.name(),
             character: &skill.model.name,
@@ -204,7 +200,7 @@ impl PreconditionsArgs {
                     Stage::Testing => "; testing",
                     Stage::Curve => "; training on parts",
                 });
-                going_on(stop)
+                work::going_on(stop)
             },
         );
         bar.finish_and_clear();
@@ -233,9 +229,13 @@ impl PreconditionsArgs {
         skill: &Skill,
         trial: &Trial,
         source: &Source,
-        (part, count): (Part, u64),
+        part: Part,
         stop: &AtomicBool,
     ) -> Result<Option<Gathered>> {
+        let count = match part {
+            Part::Train => self.samples,
+            Part::Test => self.test,
+        };
         let plan = Plan {
             trial,
             header: header(skill, source, part, self.seed, count as usize),
@@ -251,7 +251,7 @@ impl PreconditionsArgs {
             let rate = fresh as f64 / begun.elapsed().as_secs_f64().max(1e-3);
             let name = skill.name();
             bar.set_message(format!("; {name}, to {}, {rate:.0} a second", part.name()));
-            going_on(stop)
+            work::going_on(stop)
         });
         bar.finish_and_clear();
         if self.resume {
@@ -259,14 +259,6 @@ impl PreconditionsArgs {
         } else {
             Ok(set?)
         }
-    }
-}
-
-fn going_on(stop: &AtomicBool) -> ControlFlow<()> {
-    if stop.load(Ordering::Relaxed) {
-        ControlFlow::Break(())
-    } else {
-        ControlFlow::Continue(())
     }
 }
 

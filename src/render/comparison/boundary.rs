@@ -29,21 +29,9 @@ const SUCCESS: &str = "#0b4f8a";
 const FAILURE: &str = "#8c2d04";
 const RADIUS: f64 = 2.6;
 
-const CONTOUR: Style = Style {
-    colour: INK,
-    width: 2.4,
-    dashes: "",
-};
-const CAPTURE_LINE: Style = Style {
-    colour: CAPTURE,
-    width: 2.2,
-    dashes: "7,4",
-};
-const FEASIBLE_EDGE: Style = Style {
-    colour: "#0b5d3b",
-    width: 2.6,
-    dashes: "2.6,2.6",
-};
+const CONTOUR: Style = Style::solid(INK, 2.4);
+const CAPTURE_LINE: Style = Style::dashed(CAPTURE, 2.2, "7,4");
+const FEASIBLE_EDGE: Style = Style::dashed("#0b5d3b", 2.6, "2.6,2.6");
 
 /// # Errors
 /// A slice whose numbers do not fit together.
@@ -198,11 +186,7 @@ fn drawn(chart: &Chart, limits: &Limits) -> Group {
 
 /// A line that is seen over field and samples.
 fn haloed(style: Style, places: &[[f64; 2]]) -> Group {
-    let halo = Style {
-        colour: "#ffffff",
-        width: style.width + 2.0,
-        dashes: "",
-    };
+    let halo = Style::solid("#ffffff", style.width + 2.0);
     Group::new()
         .add(halo.polyline(places).set("stroke-opacity", 0.75))
         .add(style.polyline(places))

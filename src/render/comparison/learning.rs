@@ -45,11 +45,7 @@ pub(super) fn figure(report: &Report) -> Result<Figure> {
         }),
     ];
     for (name, mark, colour, dashes, accuracy) in rivals {
-        let style = Style {
-            colour,
-            width: 2.0,
-            dashes,
-        };
+        let style = Style::dashed(colour, 2.0, dashes);
         let place = |p: &CurvePoint| {
             let [x, y] = chart.inside([(p.train as f64).log10(), 100.0 * accuracy(p)]);
             [chart.at[0] + x, chart.at[1] + y]

@@ -9,16 +9,8 @@ use super::{Figure, HAND_MADE, NEIGHBOUR, SVM, check_share, operating_point};
 use crate::render::chart::{Chart, Style};
 use crate::render::style::{FAINT_INK, document};
 
-const CURVE: Style = Style {
-    colour: SVM,
-    width: 2.2,
-    dashes: "",
-};
-const GUESSING: Style = Style {
-    colour: FAINT_INK,
-    width: 1.2,
-    dashes: "4,4",
-};
+const CURVE: Style = Style::solid(SVM, 2.2);
+const GUESSING: Style = Style::dashed(FAINT_INK, 1.2, "4,4");
 const RADIUS: f64 = 5.0;
 
 /// # Errors

@@ -8,14 +8,13 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
+use aplomb_framework::boundary::MOST_FEATURES;
 use aplomb_framework::file::write_atomically;
 use aplomb_framework::{Error, Result};
 use csv::{ReaderBuilder, StringRecord, WriterBuilder};
 
 /// The most samples that are read.
 pub const MOST_ROWS: usize = 2_000_000;
-/// The most features that are read.
-pub const MOST_FEATURES: usize = 64;
 /// The largest file that is read: 4 GiB.
 const LARGEST: u64 = 1 << 32;
 /// Name of the last column.

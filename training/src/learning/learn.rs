@@ -9,8 +9,8 @@ use std::time::Instant;
 use aplomb_framework::{Error, Result};
 use rayon::prelude::*;
 
-use super::calibration::Calibration;
-use super::cross_validation::{Choice, choose};
+use super::calibration::calibrate;
+use super::cross_validation::choose;
 use super::dataset::Dataset;
 use super::learned::Learned;
 use super::machine::{Kernel, Settings, train as train_machine};
@@ -118,7 +118,7 @@ pub fn learn(
     let Some(choice) = chosen else {
         return Ok(None);
     };
-    let calibration = Calibration::of(&choice.scores, &train.success[..choice.scores.len()])?;
+    let calibration = calibrate(&choice.scores, &train.success[..choice.scores.len()])?;
     let choice_s = clock.elapsed().as_secs_f64();
 
     if watch(progress(Stage::Training, 0, 1)).is_break() {
@@ -127,14 +127,33 @@ pub fn learn(
     let clock = Instant::now();
     let machine = train_machine(&rows, &train.success, &choice.settings)?;
     let train_s = clock.elapsed().as_secs_f64();
-    let learned = Learned::new(&train.features, scaling, machine, calibration);
+    let tested = scaling.apply_all(&test.rows);
+    let learned = Learned {
+        features: train.features.clone(),
+        decision: machine.decision(),
+        scaling,
+        calibration,
+    };
 
     if watch(progress(Stage::Testing, 0, 1)).is_break() {
         return Ok(None);
     }
     let scores: Vec<f64> = test.rows.par_iter().map(|r| learned.score(r)).collect();
-    let svm = svm_report(&learned, &choice, &scores, test, [train_s, choice_s]);
-    let nn = neighbour_report(train, test)?;
+    let roc = roc(&scores, &test.success);
+    let svm = SvmReport {
+        kernel: choice.settings.kernel.to_string(),
+        solver: machine.solver.to_owned(),
+        c: choice.settings.c,
+        gamma: choice.settings.gamma,
+        metrics: of_scores(&scores, &test.success),
+        auc: area(&roc),
+        log_loss: loss(&learned, &scores, test),
+        support_vectors: machine.support.len(),
+        train_s,
+        choice_s,
+        query_us: query_us(&learned, test),
+    };
+    let nn = neighbour_report(&Neighbours::new(&rows, &train.success)?, &tested, test)?;
     let mut curve = Vec::new();
     let sizes: Vec<usize> = sizes(settings, train);
     for (done, size) in sizes.iter().enumerate() {
@@ -165,7 +184,7 @@ pub fn learn(
         nn,
         manual: metrics(manual, &test.success),
         majority: majority(train, test),
-        roc: thinned(&roc(&scores, &test.success)),
+        roc: thinned(&roc),
         curve,
         slice: slice(&learned, train, test),
     };
@@ -176,39 +195,28 @@ fn progress(stage: Stage, done: usize, of: usize) -> Progress {
     Progress { stage, done, of }
 }
 
-fn svm_report(
-    learned: &Learned,
-    choice: &Choice,
-    scores: &[f64],
-    test: &Dataset,
-    [train_s, choice_s]: [f64; 2],
-) -> SvmReport {
+/// Mean log-loss of the calibrated probabilities of the test set.
+fn loss(learned: &Learned, scores: &[f64], test: &Dataset) -> f64 {
     let probability: Vec<f64> = scores.iter().map(|s| learned.probability(*s)).collect();
+    log_loss(&probability, &test.success)
+}
+
+/// µs that a score takes, one after another.
+fn query_us(learned: &Learned, test: &Dataset) -> f64 {
     let timed = &test.rows[..test.rows.len().min(TIMED)];
     let clock = Instant::now();
     for row in timed {
         black_box(learned.score(black_box(row)));
     }
-    let query_us = micros_each(clock, timed.len());
-    SvmReport {
-        kernel: choice.settings.kernel.to_string(),
-        solver: learned.machine.solver.to_owned(),
-        c: choice.settings.c,
-        gamma: choice.settings.gamma,
-        metrics: of_scores(scores, &test.success),
-        auc: area(&roc(scores, &test.success)),
-        log_loss: log_loss(&probability, &test.success),
-        support_vectors: learned.machine.support.len(),
-        train_s,
-        choice_s,
-        query_us,
-    }
+    micros_each(clock, timed.len())
 }
 
-fn neighbour_report(train: &Dataset, test: &Dataset) -> Result<NeighbourReport> {
-    let scaling = Scaling::of(&train.rows);
-    let neighbours = Neighbours::new(&scaling.apply_all(&train.rows), &train.success)?;
-    let rows = scaling.apply_all(&test.rows);
+/// Over the standardised rows of the test set.
+fn neighbour_report(
+    neighbours: &Neighbours,
+    rows: &[Vec<f64>],
+    test: &Dataset,
+) -> Result<NeighbourReport> {
     let timed = rows.len().min(TIMED_NEIGHBOURS);
     let clock = Instant::now();
     for row in rows[..timed].chunks(1) {
@@ -216,7 +224,7 @@ fn neighbour_report(train: &Dataset, test: &Dataset) -> Result<NeighbourReport> 
     }
     let query_us = micros_each(clock, timed);
     Ok(NeighbourReport {
-        metrics: metrics(&neighbours.predict(&rows)?, &test.success),
+        metrics: metrics(&neighbours.predict(rows)?, &test.success),
         query_us,
     })
 }
@@ -273,6 +281,8 @@ fn micros_each(clock: Instant, count: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use aplomb_framework::boundary::Decision;
+
     use super::*;
     use crate::learning::synthetic::rings;
 
@@ -329,7 +339,7 @@ mod tests {
         assert_eq!(report.svm.solver, "linfa-svm");
         // A ball is a polynomial of degree 2.
         assert!(report.svm.kernel.starts_with("poly"), "{report:?}");
-        assert!(learned.slope < 0.0);
+        assert!(learned.calibration.slope < 0.0);
         let sizes: Vec<usize> = report.curve.iter().map(|p| p.train).collect();
         assert_eq!(sizes, [100, 300]);
         assert_eq!(report.curve[1].svm, report.svm.metrics.balanced_accuracy);
@@ -349,7 +359,7 @@ mod tests {
     fn a_radial_machine_is_learned_if_asked_for() {
         let (learned, report) = learned("rbf", 2);
         assert_eq!(report.svm.kernel, "rbf");
-        assert_eq!(learned.coefficients, None);
+        assert!(matches!(learned.decision, Decision::Gaussian { .. }));
         assert!(report.svm.metrics.balanced_accuracy > 0.85, "{report:?}");
     }
 

@@ -1,8 +1,7 @@
 //! A learned pre-condition, as it is used: features → probability of success.
 
-use super::calibration::Calibration;
-use super::machine::Machine;
-use super::polynomial;
+use aplomb_framework::boundary::{Calibration, Decision};
+
 use super::standardise::Scaling;
 
 /// Everything that a query needs.
@@ -10,57 +9,24 @@ use super::standardise::Scaling;
 pub struct Learned {
     /// Names of the features, in the order of a row.
     pub features: Vec<String>,
-    /// What is taken from each, in its unit.
-    pub mean: Vec<f64>,
-    /// What each is then divided by, in its unit.
-    pub scale: Vec<f64>,
-    /// The machine on standardised rows.
-    pub machine: Machine,
-    /// The machine as a polynomial of standardised rows, in the order of [`Machine::collapse`];
-    /// none if the kernel is radial.
-    pub coefficients: Option<Vec<f64>>,
-    /// Probability = 1 / (1 + exp(slope · score + offset)); below 0.
-    pub slope: f64,
-    /// See `slope`.
-    pub offset: f64,
+    /// What brings a row to mean 0 and deviation 1.
+    pub scaling: Scaling,
+    /// From a standardised row to the score.
+    pub decision: Decision,
+    /// From the score to a probability.
+    pub calibration: Calibration,
 }
 
 impl Learned {
-    /// From its parts.
-    #[must_use]
-    pub fn new(
-        features: &[String],
-        scaling: Scaling,
-        machine: Machine,
-        calibration: Calibration,
-    ) -> Self {
-        Self {
-            features: features.to_vec(),
-            mean: scaling.mean,
-            scale: scaling.scale,
-            coefficients: machine.collapse(),
-            machine,
-            slope: calibration.slope,
-            offset: calibration.offset,
-        }
-    }
-
     /// Score of a row of features in their units: a success if it is at least 0.
     #[must_use]
     pub fn score(&self, row: &[f64]) -> f64 {
-        let statistics = self.mean.iter().zip(&self.scale);
-        let standardised = |(value, (mean, scale)): (&f64, (&f64, &f64))| (value - mean) / scale;
-        let z: Vec<f64> = row.iter().zip(statistics).map(standardised).collect();
-        match (&self.coefficients, self.machine.kernel.degree()) {
-            (Some(coefficients), Some(degree)) => polynomial::value(coefficients, degree, &z),
-            _ => self.machine.score(&z),
-        }
+        self.decision.value(&self.scaling.apply(row))
     }
 
     /// Probability of success at a score.
     #[must_use]
     pub fn probability(&self, score: f64) -> f64 {
-        let (slope, offset) = (self.slope, self.offset);
-        Calibration { slope, offset }.probability(score)
+        self.calibration.probability(score)
     }
 }

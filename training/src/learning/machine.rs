@@ -6,6 +6,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use aplomb_framework::boundary::Decision;
 use aplomb_framework::{Error, Result};
 
 use super::{libsvm_solver, linfa_solver, polynomial};
@@ -40,9 +41,13 @@ impl Kernel {
             return Ok(Self::ALL.to_vec());
         }
         let known = || ["auto"].into_iter().chain(Self::ALL.map(Self::name));
-        let kernel = Self::ALL.into_iter().find(|k| k.name() == name);
+        let kernel = Self::named(name);
         let kernel = kernel.ok_or_else(|| Error::unknown("kernel", name, known()))?;
         Ok(vec![kernel])
+    }
+
+    fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|k| k.name() == name)
     }
 
     /// `linear`, `poly2`, `poly3` or `rbf`.
@@ -58,7 +63,7 @@ impl Kernel {
 
     /// Degree of the polynomial, if it is one.
     #[must_use]
-    pub fn degree(self) -> Option<usize> {
+    pub fn degree(self) -> Option<u8> {
         match self {
             Self::Linear => Some(1),
             Self::Poly2 => Some(2),
@@ -95,8 +100,7 @@ impl FromStr for Kernel {
     type Err = Error;
 
     fn from_str(name: &str) -> Result<Self> {
-        let kernel = Self::ALL.into_iter().find(|k| k.name() == name);
-        kernel.ok_or_else(|| Error::unknown("kernel", name, Self::ALL.map(Self::name)))
+        Self::named(name).ok_or_else(|| Error::unknown("kernel", name, Self::ALL.map(Self::name)))
     }
 }
 
@@ -137,6 +141,23 @@ impl Machine {
             .map(|(x, weight)| weight * self.kernel.value(self.gamma, x, z))
             .sum();
         sum + self.offset
+    }
+
+    /// What the framework evaluates: the exact polynomial, or the radial sum.
+    #[must_use]
+    pub fn decision(&self) -> Decision {
+        match (self.collapse(), self.kernel.degree()) {
+            (Some(coefficients), Some(degree)) => Decision::Polynomial {
+                degree,
+                coefficients,
+            },
+            _ => Decision::Gaussian {
+                gamma: self.gamma,
+                support: self.support.clone(),
+                weights: self.weights.clone(),
+                offset: self.offset,
+            },
+        }
     }
 
     /// The exact polynomial in z that the sum is, unless the kernel is radial: coefficients of 1, of
@@ -302,8 +323,8 @@ mod tests {
                 offset: numbers[1],
                 solver: "none",
             };
-            let coefficients = machine.collapse().unwrap();
-            let found = polynomial::value(&coefficients, kernel + 1, z);
+            prop_assert!(machine.collapse().is_some());
+            let found = machine.decision().value(z);
             let size: f64 = support.iter().zip(&machine.weights)
                 .map(|(x, w)| (w * machine.kernel.value(gamma, x, z)).abs()).sum();
             prop_assert!((found - machine.score(z)).abs() <= 1e-9 * (1.0 + size));

@@ -1,7 +1,7 @@
 //! Pre-conditions learned from successes and failures (Faloutsos, van de Panne & Terzopoulos 2001).
 //!
 //! [`dataset`](dataset::Dataset) → [`standardise`] → kernel, C and γ by [`cross_validation`] →
-//! [`machine`] → [`polynomial`] where the kernel is one → probabilities by [`calibration`];
+//! [`machine`] → `polynomial` where the kernel is one → probabilities by [`calibration`];
 //! beside it the nearest [`neighbour`]. [`metrics`] of both on a test set. All of it:
 //! [`learn`](mod@learn), from two sets that [`split`] accepts to a pre-condition ([`learned`]) and a
 //! report with a [`slice`](mod@slice) of it.
@@ -16,7 +16,7 @@ mod linfa_solver;
 pub mod machine;
 pub mod metrics;
 pub mod neighbour;
-pub mod polynomial;
+mod polynomial;
 pub mod slice;
 pub mod split;
 pub mod standardise;

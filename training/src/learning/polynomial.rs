@@ -3,11 +3,13 @@
 //!
 //! Coefficients come in the order 1; zᵢ; zᵢ zⱼ for i ≤ j; zᵢ zⱼ zₖ for i ≤ j ≤ k, each lexicographic.
 
+use aplomb_framework::boundary::monomials;
+
 /// Coefficients of Σ weight · (gamma x·z + constant)^degree, for a degree of 1 to 3; `None` without
 /// a term.
 pub(super) fn of_powers<'a>(
     terms: impl Iterator<Item = (&'a Vec<f64>, &'a f64)>,
-    degree: usize,
+    degree: u8,
     gamma: f64,
     constant: f64,
 ) -> Option<Vec<f64>> {
@@ -18,13 +20,13 @@ pub(super) fn of_powers<'a>(
         _ => [1.0, 3.0, 3.0, 1.0],
     };
     let factor = |k: usize| {
-        let rest = constant.powi(degree.saturating_sub(k) as i32);
+        let rest = constant.powi(usize::from(degree).saturating_sub(k) as i32);
         binomial[k] * rest * gamma.powi(k as i32)
     };
     let mut coefficients = Vec::new();
     for (x, weight) in terms {
         let width = x.len();
-        coefficients.resize(count(width, degree), 0.0);
+        coefficients.resize(monomials(width, degree), 0.0);
         let mut next = coefficients.iter_mut();
         let mut add = |value: f64| {
             if let Some(coefficient) = next.next() {
@@ -58,49 +60,10 @@ pub(super) fn of_powers<'a>(
     (!coefficients.is_empty()).then_some(coefficients)
 }
 
-/// How many coefficients a polynomial of this degree, 1 to 3, has in so many variables.
-#[must_use]
-pub fn count(width: usize, degree: usize) -> usize {
-    (1..=degree)
-        .map(|k| (0..k).fold(1, |c, i| c * (width + i) / (i + 1)))
-        .sum::<usize>()
-        + 1
-}
-
-/// Value at z of the polynomial with these coefficients.
-#[must_use]
-pub fn value(coefficients: &[f64], degree: usize, z: &[f64]) -> f64 {
-    let width = z.len();
-    let (lower, cubic) = coefficients.split_at(count(width, degree.min(2)).min(coefficients.len()));
-    let (linear, quadratic) = lower.split_at((1 + width).min(lower.len()));
-    let (mut quadratic, mut cubic) = (quadratic, cubic);
-    let mut sum = linear[0];
-    for i in 0..width {
-        let mut slope = linear[1 + i];
-        if degree >= 2 {
-            let (row, rest) = quadratic.split_at(width - i);
-            quadratic = rest;
-            for (j, c) in row.iter().enumerate() {
-                let mut curvature = *c;
-                if degree >= 3 {
-                    let (row, rest) = cubic.split_at(width - i - j);
-                    cubic = rest;
-                    curvature += dot(row, &z[i + j..]);
-                }
-                slope += curvature * z[i + j];
-            }
-        }
-        sum += slope * z[i];
-    }
-    sum
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
 #[cfg(test)]
 mod tests {
+    use aplomb_framework::boundary::Decision;
+
     use super::*;
 
     #[test]
@@ -115,15 +78,23 @@ mod tests {
         let z = [0.5, -0.25];
         let base = 2.0 * (0.5 - 0.75) + 1.0_f64;
         for degree in 1..=3 {
-            let found = value(&of(degree), degree, &z);
-            assert!((found - base.powi(degree as i32)).abs() < 1e-12, "{found}");
+            let coefficients = of(degree);
+            let found = Decision::Polynomial {
+                degree,
+                coefficients,
+            }
+            .value(&z);
+            assert!(
+                (found - base.powi(i32::from(degree))).abs() < 1e-12,
+                "{found}"
+            );
         }
     }
 
     #[test]
     fn counts_of_coefficients() {
-        assert_eq!(count(30, 1), 31);
-        assert_eq!(count(30, 2), 496);
-        assert_eq!(count(30, 3), 5456);
+        assert_eq!(monomials(30, 1), 31);
+        assert_eq!(monomials(30, 2), 496);
+        assert_eq!(monomials(30, 3), 5456);
     }
 }

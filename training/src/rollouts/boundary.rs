@@ -3,7 +3,7 @@
 //! learned machine, report → [`Boundary`].
 
 use aplomb_framework::Result;
-use aplomb_framework::boundary::{Boundary, Calibration, Decision};
+use aplomb_framework::boundary::Boundary;
 
 use crate::learning::learned::Learned;
 use crate::report::Report;
@@ -13,19 +13,6 @@ use crate::report::Report;
 /// # Errors
 /// A feature that the framework does not know.
 pub fn boundary(learned: &Learned, report: &Report, digest: &str) -> Result<Boundary> {
-    let machine = &learned.machine;
-    let decision = match (&learned.coefficients, machine.kernel.degree()) {
-        (Some(coefficients), Some(degree)) => Decision::Polynomial {
-            degree: degree as u8,
-            coefficients: coefficients.clone(),
-        },
-        _ => Decision::Gaussian {
-            gamma: machine.gamma,
-            support: machine.support.clone(),
-            weights: machine.weights.clone(),
-            offset: machine.offset,
-        },
-    };
     let svm = &report.svm;
     let provenance = format!(
         "{} rollouts, seed {}, {} % successes; {} kernel, C {}, gamma {:.4}, {} support vectors. On {} others: \
@@ -52,13 +39,10 @@ pub fn boundary(learned: &Learned, report: &Report, digest: &str) -> Result<Boun
             .iter()
             .map(|f| f.parse())
             .collect::<Result<_>>()?,
-        mean: learned.mean.clone(),
-        scale: learned.scale.clone(),
-        decision,
-        calibration: Calibration {
-            slope: learned.slope,
-            offset: learned.offset,
-        },
+        mean: learned.scaling.mean.clone(),
+        scale: learned.scaling.scale.clone(),
+        decision: learned.decision.clone(),
+        calibration: learned.calibration,
         provenance,
     })
 }

@@ -2,16 +2,15 @@
 //!
 //! RON → [`Disturbance`] (validated). One file a controller; those of the humanoid are shipped.
 
-use std::collections::BTreeMap;
-use std::path::Path;
-
+use aplomb_controllers::target::{NamedAngles, joints_named};
+use aplomb_framework::boundary::MOST_FEATURES;
 use aplomb_framework::feature::Feature;
 use aplomb_framework::file::Source;
 use aplomb_framework::model::Model;
 use aplomb_framework::{Error, Result};
 use serde::Deserialize;
 
-/// At most this many features or starts.
+/// At most this many starts, minds or links to draw from.
 const MOST: usize = 64;
 /// Strongest force, N.
 const STRONGEST: f64 = 20_000.0;
@@ -25,7 +24,7 @@ pub struct Nominal {
     pub pitch: f64,
     /// Joint angles by name or stem, rad; the others are 0.
     #[serde(default)]
-    pub angles: BTreeMap<String, f64>,
+    pub angles: NamedAngles,
     /// rad; the pitch strays evenly by up to this much.
     #[serde(default)]
     pub tilt: f64,
@@ -153,14 +152,6 @@ pub fn shipped(controller: &str) -> Result<Source> {
     ))
 }
 
-/// The text of a disturbance file.
-///
-/// # Errors
-/// [`Error::Read`].
-pub fn read(path: &Path) -> Result<Source> {
-    Source::read(path)
-}
-
 impl Disturbance {
     /// A disturbance in text, checked against the character.
     ///
@@ -171,14 +162,14 @@ impl Disturbance {
         let bad = |needle: &str, problem: String, accepted: &str| {
             Err(source.invalid(needle, needle, problem, accepted))
         };
-        for (field, count) in [
-            ("features", d.features.len()),
-            ("starts", d.starts.len()),
-            ("during", d.during.len()),
-            ("links", d.force.links.len()),
+        for (field, count, most) in [
+            ("features", d.features.len(), MOST_FEATURES),
+            ("starts", d.starts.len(), MOST),
+            ("during", d.during.len(), MOST),
+            ("links", d.force.links.len(), MOST),
         ] {
-            if !(1..=MOST).contains(&count) {
-                return bad(field, format!("a list of {count}"), "1 to 64");
+            if !(1..=most).contains(&count) {
+                return bad(field, format!("a list of {count}"), &format!("1 to {most}"));
             }
         }
         for (i, f) in d.features.iter().enumerate() {
@@ -203,15 +194,7 @@ impl Disturbance {
             pair("lift", start.lift, 10.0)?;
             for (joint, angle) in &start.angles {
                 within("angles", *angle, -7.0, 7.0)?;
-                let stem = |j: &str| {
-                    j == joint
-                        || j.strip_prefix(joint.as_str())
-                            .is_some_and(|r| r.starts_with('_'))
-                };
-                if !model.joints().any(|j| stem(&j.name)) {
-                    let names = model.joints().map(|j| j.name.as_str());
-                    return Err(Error::unknown("joint", joint, names).at(&source.place(joint)));
-                }
+                joints_named(model, joint).map_err(|e| e.at(&source.place(joint)))?;
             }
         }
         for link in &d.force.links {

@@ -8,6 +8,7 @@
 use std::sync::Arc;
 
 use aplomb_controllers::servo::Servo;
+use aplomb_controllers::target::overlay;
 use aplomb_framework::Result;
 use aplomb_framework::condition::Condition;
 use aplomb_framework::contract::Contract;
@@ -46,13 +47,13 @@ pub struct Sample {
 pub struct Trial {
     /// The distribution.
     pub disturbance: Disturbance,
+    /// The angles of each of its starts, rad.
+    poses: Vec<Vec<f64>>,
     model: Arc<Model>,
     repertoire: Supervisor,
     /// The controller alone, wherever it is; lying limp when it has ended.
     alone: Supervisor,
     contract: Contract,
-    /// What it answers to.
-    command: String,
 }
 
 impl Trial {
@@ -73,12 +74,23 @@ impl Trial {
         let controller = registry.build(&place, &file, &skill.model)?;
         let limp = vec![0.0; skill.model.joint_count()];
         let idle: Box<dyn Controller> = Box::new(Held::new("idle", &skill.model, limp, 0.0));
+        let pose = |start: &Nominal| {
+            let mut pose = vec![0.0; skill.model.joint_count()];
+            overlay(
+                &skill.model,
+                &start.angles,
+                "angles",
+                [-7.0, 7.0],
+                &mut pose,
+            )
+            .map(|()| pose)
+        };
         Ok(Self {
+            poses: disturbance.starts.iter().map(pose).collect::<Result<_>>()?,
             disturbance,
             model: Arc::clone(&skill.model),
             repertoire: skill.mind.clone(),
             alone: Supervisor::new("alone", vec![controller, idle], "idle")?,
-            command: skill.contract.commands[0].name.clone(),
             contract: skill.contract.clone(),
         })
     }
@@ -90,7 +102,9 @@ impl Trial {
     pub fn sample(&self, rng: &mut ChaCha8Rng) -> Result<Sample> {
         let mut run = self.disturbed(rng)?;
         run.set_mind(0, self.alone.clone());
-        run.command(0, &self.command)?;
+        if let Some(command) = self.contract.commands.first() {
+            run.command(0, &command.name)?;
+        }
         run.step(); // it takes over with what is sensed in this step
         let now = run.sensors(0);
         let features = self.disturbance.features.iter();
@@ -107,14 +121,25 @@ impl Trial {
     /// The character, disturbed.
     fn disturbed(&self, rng: &mut ChaCha8Rng) -> Result<Simulation> {
         let d = &self.disturbance;
-        let nominal = &d.starts[rng.gen_range(0..d.starts.len())];
+        let place = rng.gen_range(0..d.starts.len());
+        let nominal = &d.starts[place];
         let mut scenario = Scenario::standing(&self.model.name, 60.0);
-        let target = self.pose(nominal, rng);
+        let joints = || self.model.joints();
+        let target: Vec<f64> = joints()
+            .zip(&self.poses[place])
+            .map(|(joint, angle)| {
+                let strayed = angle + nominal.spread * rng.gen_range(-1.0..=1.0);
+                strayed.clamp(joint.range[0], joint.range[1])
+            })
+            .collect();
         scenario.characters[0].start = Start {
             x: 0.0,
             lift: rng.gen_range(nominal.lift[0]..=nominal.lift[1]),
             pitch: nominal.pitch + rng.gen_range(-1.0..=1.0) * nominal.tilt,
-            angles: self.named(&target),
+            angles: joints()
+                .map(|j| j.name.clone())
+                .zip(target.iter().copied())
+                .collect(),
         };
         let offset: Vec<f64> = target
             .iter()
@@ -144,27 +169,6 @@ impl Trial {
         )?;
         run.run((time + rng.gen_range(d.pause[0]..=d.pause[1])).max(SOONEST));
         Ok(run)
-    }
-
-    /// A start's angles: nominal, strayed, within the joints' ranges.
-    fn pose(&self, nominal: &Nominal, rng: &mut ChaCha8Rng) -> Vec<f64> {
-        let joints = self.model.joints();
-        joints
-            .map(|joint| {
-                let named = nominal.angles.iter().find(|(name, _)| {
-                    let rest = joint.name.strip_prefix(name.as_str());
-                    rest.is_some_and(|r| r.is_empty() || r.starts_with('_'))
-                });
-                let angle = named.map_or(0.0, |(_, a)| *a);
-                let strayed = angle + nominal.spread * rng.gen_range(-1.0..=1.0);
-                strayed.clamp(joint.range[0], joint.range[1])
-            })
-            .collect()
-    }
-
-    fn named(&self, angles: &[f64]) -> std::collections::BTreeMap<String, f64> {
-        let names = self.model.joints().map(|j| j.name.clone());
-        names.zip(angles.iter().copied()).collect()
     }
 
     /// Runs on until the controller has ended.

@@ -6,8 +6,8 @@
 //! number of threads changes nothing, and no sample can be in both. The partial file begins with a
 //! line that says which set it is; a last line without an end is of a sample that was not finished.
 
-use std::fs::{File, OpenOptions};
-use std::io::{BufWriter, Write};
+use std::fs::File;
+use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -20,8 +20,9 @@ use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
 use super::rollout::{Sample, Trial};
+use crate::growing;
 use crate::learning::dataset::Dataset;
-use crate::skill::Skill;
+use crate::skill::{Skill, whole_text};
 
 /// Rollouts between two writes to the partial file.
 const BATCH: usize = 64;
@@ -134,13 +135,7 @@ pub struct Gathered {
 /// The header of a set that is not finished.
 #[must_use]
 pub fn header(skill: &Skill, disturbance: &Source, part: Part, seed: u64, count: usize) -> Header {
-    let file = format!(
-        "{} {:?} {}",
-        skill.file.kind,
-        skill.file.contract,
-        skill.file.spec.get_ron()
-    );
-    let own = xxh3_64(file.as_bytes()) ^ skill.surroundings.rotate_left(1);
+    let own = xxh3_64(whole_text(&skill.file).as_bytes()) ^ skill.surroundings.rotate_left(1);
     Header {
         controller: skill.name().to_owned(),
         character: skill.model.name.clone(),
@@ -173,36 +168,29 @@ pub fn gather(
         let _ = watch(plan.header.count);
         return Ok(Some(done));
     }
-    let mut lines = if plan.resume && plan.files.partial.exists() {
+    let partial = &plan.files.partial;
+    let (mut file, mut samples) = if plan.resume && partial.exists() {
         resumed(plan, &first)?
     } else {
-        write_atomically(&plan.files.partial, format!("{first}\n").as_bytes())?;
-        Vec::new()
+        (growing::begin(partial, &format!("{first}\n"))?, Vec::new())
     };
-    let found = lines.len();
-    let failed = |e: std::io::Error| Error::Write {
-        path: plan.files.partial.clone(),
-        reason: e.to_string(),
-    };
-    let file = OpenOptions::new().append(true).open(&plan.files.partial);
-    let mut file = BufWriter::new(file.map_err(failed)?);
-    while lines.len() < plan.header.count {
-        if watch(lines.len()).is_break() {
+    let found = samples.len();
+    while samples.len() < plan.header.count {
+        if watch(samples.len()).is_break() {
             return Ok(None);
         }
-        let next = lines.len()..(lines.len() + BATCH).min(plan.header.count);
-        let batch: Vec<String> = next
+        let next = samples.len()..(samples.len() + BATCH).min(plan.header.count);
+        let batch: Vec<Sample> = next
             .into_par_iter()
-            .map(|i| line(plan, i))
+            .map(|i| sample(plan, i))
             .collect::<Result<_>>()?;
-        for line in &batch {
-            writeln!(file, "{line}").map_err(failed)?;
-        }
-        file.flush().map_err(failed)?;
-        lines.extend(batch);
+        let lines: String = batch.iter().map(line).collect();
+        let written = file.write_all(lines.as_bytes());
+        written.map_err(|e| growing::failed(partial, &e))?;
+        samples.extend(batch);
     }
-    let _ = watch(lines.len());
-    finish(plan, &lines, found).map(Some)
+    let _ = watch(samples.len());
+    finish(plan, samples, found).map(Some)
 }
 
 /// The line that tells a partial file's set.
@@ -222,107 +210,91 @@ fn first_line(h: &Header) -> String {
     )
 }
 
-/// One rollout as a line: features, success, whether the hand-made pre-condition held.
-fn line(plan: &Plan<'_>, index: usize) -> Result<String> {
-    let mut rng = ChaCha8Rng::seed_from_u64(plan.header.seed);
-    rng.set_stream(plan.header.part.stream(index));
-    let Sample {
-        features,
-        success,
-        manual,
-    } = plan.trial.sample(&mut rng)?;
+/// One rollout, whose features all have a value.
+fn sample(plan: &Plan<'_>, index: usize) -> Result<Sample> {
+    let Header {
+        controller,
+        part,
+        seed,
+        ..
+    } = &plan.header;
+    let mut rng = ChaCha8Rng::seed_from_u64(*seed);
+    rng.set_stream(part.stream(index));
+    let sample = plan.trial.sample(&mut rng)?;
     let names = &plan.trial.disturbance.features;
-    let mut text = String::new();
-    for (name, value) in names.iter().zip(&features) {
-        if !value.is_finite() {
-            let place = format!(
-                "{}: {} sample {index}",
-                plan.header.controller,
-                plan.header.part.name()
-            );
-            let accepted = "features that have a value wherever the disturbance leads";
-            return Err(Error::invalid(place, name.to_string(), value, accepted));
-        }
-        text.push_str(&format!("{value},"));
+    let mut values = names.iter().zip(&sample.features);
+    if let Some((name, value)) = values.find(|(_, value)| !value.is_finite()) {
+        let place = format!("{controller}: {} sample {index}", part.name());
+        let accepted = "features that have a value wherever the disturbance leads";
+        return Err(Error::invalid(place, name.to_string(), value, accepted));
     }
-    text.push_str(&format!("{},{}", u8::from(success), u8::from(manual)));
-    Ok(text)
+    Ok(sample)
 }
 
-/// The samples of a partial file; its unfinished end is cut off.
-fn resumed(plan: &Plan<'_>, first: &str) -> Result<Vec<String>> {
-    let path = &plan.files.partial;
-    let bytes = read_bounded(path, LARGEST)?;
-    let end = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
-    let text = String::from_utf8_lossy(&bytes[..end]);
-    let mut lines = text.lines();
-    let title = lines.next().unwrap_or_default();
-    if title != first {
-        let differs = first
-            .split(' ')
-            .zip(title.split(' '))
-            .find(|(a, b)| a != b)
-            .map_or("its length", |(_, b)| b);
-        let accepted = format!("the set that is asked for: {first}");
-        return Err(Error::invalid(
-            format!("{}:1", path.display()),
-            "set",
-            differs.to_owned(),
-            accepted,
-        ));
-    }
-    let lines: Vec<String> = lines.map(str::to_owned).collect();
-    let columns = plan.trial.disturbance.features.len() + 2;
-    for (i, line) in lines.iter().enumerate() {
-        if parsed(line, columns).is_none() {
-            let place = format!("{}:{}", path.display(), i + 2);
-            let accepted = format!("{columns} numbers, the last two 0 or 1");
-            return Err(Error::invalid(place, "sample", line, accepted));
-        }
-    }
-    if lines.len() > plan.header.count {
-        let accepted = format!("at most {}", plan.header.count);
-        return Err(Error::invalid(
-            path.display().to_string(),
-            "samples",
-            lines.len(),
-            accepted,
-        ));
-    }
-    let file = OpenOptions::new().write(true).open(path);
-    let cut = file.and_then(|f: File| f.set_len(end as u64));
-    cut.map_err(|e| Error::Write {
-        path: path.clone(),
-        reason: e.to_string(),
-    })?;
-    Ok(lines)
+/// Features, success, whether the hand-made pre-condition held.
+fn line(sample: &Sample) -> String {
+    let features: String = sample.features.iter().map(|x| format!("{x},")).collect();
+    let [success, manual] = [sample.success, sample.manual].map(u8::from);
+    format!("{features}{success},{manual}\n")
 }
 
-fn parsed(line: &str, columns: usize) -> Option<(Vec<f64>, bool, bool)> {
+/// What a line tells.
+fn parsed(line: &str, columns: usize) -> Option<Sample> {
     let numbers: Option<Vec<f64>> = line.split(',').map(|n| n.parse().ok()).collect();
-    let mut numbers = numbers.filter(|n| n.len() == columns && n.iter().all(|x| x.is_finite()))?;
-    let mut flag = || match numbers.pop() {
+    let mut features = numbers.filter(|n| n.len() == columns && n.iter().all(|x| x.is_finite()))?;
+    let mut flag = || match features.pop() {
         Some(0.0) => Some(false),
         Some(1.0) => Some(true),
         _ => None,
     };
     let (manual, success) = (flag()?, flag()?);
-    Some((numbers, success, manual))
+    Some(Sample {
+        features,
+        success,
+        manual,
+    })
+}
+
+/// The partial file without its unfinished end, and its samples.
+fn resumed(plan: &Plan<'_>, first: &str) -> Result<(File, Vec<Sample>)> {
+    let path = &plan.files.partial;
+    let (text, end) = growing::whole_lines(path, LARGEST)?;
+    let mut lines = text.lines();
+    let title = lines.next().unwrap_or_default();
+    if title != first {
+        let mut words = first.split(' ').zip(title.split(' '));
+        let differs = words.find(|(a, b)| a != b).map_or("its length", |(_, b)| b);
+        let place = format!("{}:1", path.display());
+        let accepted = format!("the set that is asked for: {first}");
+        return Err(Error::invalid(place, "set", differs, accepted));
+    }
+    let columns = plan.trial.disturbance.features.len() + 2;
+    let read = |(i, line): (usize, &str)| {
+        parsed(line, columns).ok_or_else(|| {
+            let place = format!("{}:{}", path.display(), i + 2);
+            let accepted = format!("{columns} numbers, the last two 0 or 1");
+            Error::invalid(place, "sample", line, accepted)
+        })
+    };
+    let samples: Vec<Sample> = lines.enumerate().map(read).collect::<Result<_>>()?;
+    if samples.len() > plan.header.count {
+        let place = path.display().to_string();
+        let accepted = format!("at most {}", plan.header.count);
+        return Err(Error::invalid(place, "samples", samples.len(), accepted));
+    }
+    Ok((growing::go_on(path, end)?, samples))
 }
 
 /// Writes the dataset and its header, and removes the partial file.
-fn finish(plan: &Plan<'_>, lines: &[String], found: usize) -> Result<Gathered> {
+fn finish(plan: &Plan<'_>, samples: Vec<Sample>, found: usize) -> Result<Gathered> {
     let features = &plan.trial.disturbance.features;
-    let mut data = Dataset {
+    let fresh = samples.len() - found;
+    let manual: Vec<bool> = samples.iter().map(|s| s.manual).collect();
+    let data = Dataset {
         features: features.iter().map(ToString::to_string).collect(),
-        ..Dataset::default()
+        success: samples.iter().map(|s| s.success).collect(),
+        rows: samples.into_iter().map(|s| s.features).collect(),
     };
-    let mut manual = Vec::with_capacity(lines.len());
-    for (row, success, by_hand) in lines.iter().filter_map(|l| parsed(l, features.len() + 2)) {
-        data.rows.push(row);
-        data.success.push(success);
-        manual.push(by_hand);
-    }
     data.write(&plan.files.csv)?;
     let header = Header {
         csv_digest: csv_digest(&plan.files.csv)?,
@@ -338,9 +310,9 @@ fn finish(plan: &Plan<'_>, lines: &[String], found: usize) -> Result<Gathered> {
     // The set is whole without it.
     drop(std::fs::remove_file(&plan.files.partial));
     Ok(Gathered {
-        fresh: lines.len() - found,
         data,
         manual,
+        fresh,
     })
 }
 
