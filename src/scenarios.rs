@@ -10,11 +10,22 @@ use aplomb_framework::file::Source;
 use aplomb_framework::scenario::Scenario;
 
 /// The shipped scenarios: name and text.
-pub const SHIPPED: [(&str, &str); 3] = [
+pub const SHIPPED: [(&str, &str); 5] = [
+    (
+        "clips/fast_bend",
+        include_str!("../scenarios/clips/fast_bend.ron"),
+    ),
+    (
+        "clips/slow_bend",
+        include_str!("../scenarios/clips/slow_bend.ron"),
+    ),
     ("push", include_str!("../scenarios/push.ron")),
     ("standing", include_str!("../scenarios/standing.ron")),
     ("story", include_str!("../scenarios/story.ron")),
 ];
+
+/// The folder of the scenarios that `train cmrt` knows by name alone.
+const CLIPS: &str = "clips";
 
 /// A shipped scenario by name, or a scenario file by path.
 ///
@@ -32,7 +43,8 @@ pub fn load(name_or_path: &str) -> Result<Scenario> {
         return Scenario::parse(&Source::new(format!("built-in {name}"), *text));
     }
     let path = Path::new(name_or_path);
-    if !path.exists() && path.extension().is_none() && path.components().count() == 1 {
+    let is_name = path.components().count() == 1 || path.starts_with(CLIPS);
+    if !path.exists() && path.extension().is_none() && is_name {
         let known = SHIPPED.iter().map(|(n, _)| *n);
         return Err(Error::unknown("scenario", name_or_path, known));
     }
@@ -45,6 +57,23 @@ pub fn load(name_or_path: &str) -> Result<Scenario> {
         }
     }
     Ok(scenario)
+}
+
+/// A shipped clip by its name with or without the folder, or a scenario file by path.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_clip(name_or_path: &str) -> Result<Scenario> {
+    let clip = format!("{CLIPS}/{name_or_path}");
+    let names = || SHIPPED.iter().map(|(n, _)| *n);
+    if names().any(|n| n == clip) {
+        return load(&clip);
+    }
+    if !Path::new(name_or_path).exists() && !name_or_path.contains(['/', '.']) {
+        let clips = names().filter_map(|n| n.strip_prefix("clips/"));
+        return Err(Error::unknown("clip", name_or_path, clips));
+    }
+    load(name_or_path)
 }
 
 /// Makes `name` the path of the file of this name in `folder`, if there is one.

@@ -81,6 +81,7 @@ fn quadratic_program(bencher: Bencher, formulation: &str) {
         com_velocity: [0.0; 2],
         pose: vec![0.0; joints],
         rates: vec![0.0; joints],
+        accelerations: vec![0.0; joints],
         pitch: 0.0,
         swing: None,
     };

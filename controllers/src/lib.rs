@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`balance`] | `balance` | stands by momentum control |
 //! | [`stance`] | `stance` | stands as an inverted pendulum |
+//! | [`cmrt`] | `cmrt` | bends, catches, punches, pushes: balance that anticipates a task |
 //! | [`step`] | `step` | puts a foot where the fall is caught, the other beside it; stands up from a crouch |
 //! | [`fall`] | `fall` | breaks falls with the hands, folds knees and trunk |
 //! | [`rest`] | `rest` | lets go; the fallback |
@@ -14,6 +15,7 @@
 //! balancing and stepping have in common.
 
 pub mod balance;
+pub mod cmrt;
 pub mod fall;
 pub mod gains;
 pub mod momentum;
@@ -34,6 +36,7 @@ use aplomb_framework::registry::Registry;
 pub fn registry() -> Registry {
     let registry = Registry::new()
         .with::<balance::BalanceSpec>()
+        .with::<cmrt::CmrtSpec>()
         .with::<stance::StanceSpec>()
         .with::<step::StepSpec>()
         .with::<fall::FallSpec>()
@@ -52,6 +55,7 @@ macro_rules! shipped {
 }
 
 const FILES: &[(&str, &str)] = shipped![
+    "clips/bend.ron",
     "learned/balance.boundary.ron",
     "learned/fall.boundary.ron",
     "learned/protective_step.boundary.ron",

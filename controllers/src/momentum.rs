@@ -9,8 +9,7 @@
 //!   pressure inside each foot, the friction cone, torque limits and joint ranges as constraints.
 //!
 //! L̇ is divided by the mass and Ḣ by mass × half a metre, so that the weights compare accelerations
-//! and carry over between characters. The reference pose is held, so the feed-forward θ̈ of (2) is 0;
-//! J̇q̇ and the Coriolis terms, which the paper leaves out, are kept.
+//! and carry over between characters. J̇q̇ and the Coriolis terms, which the paper leaves out, are kept.
 //!
 //! sensors + [`Reference`] → quadratic program → torques. Nothing is allocated after building.
 
@@ -47,6 +46,8 @@ pub struct Reference {
     pub pose: Vec<f64>,
     /// θ̇_r, rad/s.
     pub rates: Vec<f64>,
+    /// θ̈ of (2), rad/s².
+    pub accelerations: Vec<f64>,
     /// Pitch of the root, rad.
     pub pitch: f64,
     /// A foot that is not to carry but to move, if any.
@@ -140,6 +141,11 @@ impl Momentum {
     pub fn reset(&mut self) {
         self.due = f64::NEG_INFINITY;
         self.solved = false;
+    }
+
+    /// Other gains from the next solution on; they are not checked.
+    pub fn set_gains(&mut self, gains: Gains) {
+        self.gains = gains;
     }
 
     /// Joint torques for this step, N·m. Returns whether a solution stands behind them; without
@@ -278,7 +284,8 @@ impl Momentum {
         track(2, g.kt * pitch - g.dt * s.qdot[2], g.tracking * g.root);
         for (j, w) in self.weights.iter().enumerate() {
             let target = g.kt * (reference.pose[j] - s.q[j + 3])
-                + g.dt * (reference.rates[j] - s.qdot[j + 3]);
+                + g.dt * (reference.rates[j] - s.qdot[j + 3])
+                + reference.accelerations[j];
             track(j + 3, target, g.tracking * w);
         }
         for i in 0..n {

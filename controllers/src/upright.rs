@@ -63,6 +63,7 @@ impl Upright {
                 com: [0.0; 2],
                 com_velocity: [0.0; 2],
                 rates: vec![0.0; angles.len()],
+                accelerations: vec![0.0; angles.len()],
                 pose: angles,
                 pitch: 0.0,
                 swing: None,
@@ -76,6 +77,11 @@ impl Upright {
         self.momentum.reset();
         self.reference.com = now.com;
         self.time = now.time;
+    }
+
+    /// Other gains from now on; they are not checked.
+    pub(crate) fn set_gains(&mut self, gains: Gains) {
+        self.momentum.set_gains(gains);
     }
 
     /// s since the last step.

@@ -20,6 +20,13 @@ pub struct Search {
     pub seed: u64,
 }
 
+/// Candidates a generation: Hansen's 4 + 3 ln n, made even.
+#[must_use]
+pub fn population(dimensions: usize) -> usize {
+    let usual = 4 + (3.0 * (dimensions.max(1) as f64).ln()) as usize;
+    usual.next_multiple_of(2)
+}
+
 /// A point of the unit cube and its cost.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Best {

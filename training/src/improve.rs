@@ -19,7 +19,7 @@ use aplomb_framework::file::{Source, write_atomically};
 use aplomb_framework::registry::{ControllerFile, Spec};
 use aplomb_framework::{Error, Result};
 
-use crate::cma_es::{Best, Search, minimise};
+use crate::cma_es::{Best, Search, minimise, population};
 use crate::exercise::{Drill, Exercise, Score, Task};
 use crate::journal::{Journal, beside};
 use crate::skill::Skill;
@@ -27,9 +27,9 @@ use crate::tune::{Tunable, at, line_of, point_of, spec_in, text_of};
 
 /// The kinds of controllers that can be searched.
 pub const KINDS: [&str; 3] = [
-    <PoseSpec as Tunable>::KIND,
-    <StepSpec as Tunable>::KIND,
-    <FallSpec as Tunable>::KIND,
+    <PoseSpec as Spec>::KIND,
+    <StepSpec as Spec>::KIND,
+    <FallSpec as Spec>::KIND,
 ];
 
 /// How to search.
@@ -84,9 +84,9 @@ pub fn improve(
 ) -> Result<Option<Found>> {
     check(skill)?;
     let kind = skill.kind();
-    if kind == <PoseSpec as Tunable>::KIND {
+    if kind == <PoseSpec as Spec>::KIND {
         search::<PoseSpec>(skill, plan, watch)
-    } else if kind == <StepSpec as Tunable>::KIND {
+    } else if kind == <StepSpec as Spec>::KIND {
         search::<StepSpec>(skill, plan, watch)
     } else {
         search::<FallSpec>(skill, plan, watch)
@@ -105,7 +105,7 @@ pub fn check(skill: &Skill) -> Result<()> {
     Task::of(skill).map(|_| ())
 }
 
-fn search<T: Tunable + Spec>(
+fn search<T: Tunable>(
     skill: &Skill,
     plan: Plan<'_>,
     mut watch: impl FnMut(Stage) -> ControlFlow<()>,
@@ -230,12 +230,6 @@ fn line_in<T: Tunable>(source: &Source) -> Result<String> {
     let file: ControllerFile = source.parse()?;
     let spec = spec_in::<T>(&source.origin, &file)?;
     Ok(line_of(&file.contract, &spec))
-}
-
-/// Candidates a generation: Hansen's 4 + 3 ln n, made even.
-fn population(dimensions: usize) -> usize {
-    let usual = 4 + (3.0 * (dimensions.max(1) as f64).ln()) as usize;
-    usual.next_multiple_of(2)
 }
 
 /// Written over the controller.

@@ -30,6 +30,7 @@
 //! - [`dimension`]: what is optimised, mapped to the unit cube
 //! - [`cma_es`]: bounded minimisation by CMA-ES, parallel and deterministic
 
+pub mod anticipation;
 pub mod cma_es;
 pub mod dimension;
 pub mod exercise;

@@ -15,7 +15,7 @@ use aplomb_controllers::target::NamedAngles;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::file::{Source, options};
 use aplomb_framework::model::Model;
-use aplomb_framework::registry::ControllerFile;
+use aplomb_framework::registry::{ControllerFile, Spec};
 use aplomb_framework::{Error, Result};
 use serde::Serialize;
 
@@ -23,9 +23,7 @@ use crate::cma_es::{Best, Search, minimise};
 use crate::dimension::Dimension;
 
 /// A kind of controller whose spec can be optimised.
-pub trait Tunable: Sized + Clone + Serialize + serde::de::DeserializeOwned + Sync {
-    /// The `kind` of its files.
-    const KIND: &'static str;
+pub trait Tunable: Spec + Clone + Serialize + Sync {
     /// What is optimised.
     fn dimensions(&self, model: &Model) -> Vec<Dimension>;
     /// The number of a dimension, to be read or set.
@@ -81,7 +79,7 @@ pub fn point_of<T: Tunable>(spec: &T, model: &Model) -> Vec<f64> {
 ///
 /// # Errors
 /// Bad syntax, or another kind of controller.
-pub fn spec_of<T: Tunable>(source: &Source) -> Result<(Contract, T)> {
+pub fn spec_of<T: Spec>(source: &Source) -> Result<(Contract, T)> {
     let file: ControllerFile = source.parse()?;
     let spec = spec_in(&source.origin, &file)?;
     Ok((file.contract, spec))
@@ -91,7 +89,7 @@ pub fn spec_of<T: Tunable>(source: &Source) -> Result<(Contract, T)> {
 ///
 /// # Errors
 /// As [`spec_of`].
-pub fn spec_in<T: Tunable>(origin: &str, file: &ControllerFile) -> Result<T> {
+pub fn spec_in<T: Spec>(origin: &str, file: &ControllerFile) -> Result<T> {
     if file.kind != T::KIND {
         return Err(Error::unknown("kind", &file.kind, [T::KIND]));
     }
@@ -105,7 +103,7 @@ struct WholeFile<'a, T> {
     spec: &'a T,
 }
 
-fn whole<'a, T: Tunable>(contract: &'a Contract, spec: &'a T) -> WholeFile<'a, T> {
+fn whole<'a, T: Spec + Serialize>(contract: &'a Contract, spec: &'a T) -> WholeFile<'a, T> {
     WholeFile {
         kind: T::KIND,
         contract,
@@ -115,14 +113,14 @@ fn whole<'a, T: Tunable>(contract: &'a Contract, spec: &'a T) -> WholeFile<'a, T
 
 /// A controller file in one line.
 #[must_use]
-pub fn line_of<T: Tunable>(contract: &Contract, spec: &T) -> String {
+pub fn line_of<T: Spec + Serialize>(contract: &Contract, spec: &T) -> String {
     let file = whole(contract, spec);
     options().to_string(&file).unwrap_or_default()
 }
 
 /// A controller file in text, with comments before it.
 #[must_use]
-pub fn text_of<T: Tunable>(contract: &Contract, spec: &T, header: &str) -> String {
+pub fn text_of<T: Spec + Serialize>(contract: &Contract, spec: &T, header: &str) -> String {
     let file = whole(contract, spec);
     let pretty = ron::ser::PrettyConfig::new()
         .struct_names(false)

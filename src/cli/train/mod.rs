@@ -1,5 +1,7 @@
 //! `aplomb train`: searches and training, one file each.
 
+mod basis;
+mod cmrt;
 mod poses;
 mod preconditions;
 
@@ -16,6 +18,8 @@ use super::scene::CastArgs;
 /// Optimise controllers
 #[derive(Debug, Subcommand)]
 pub(super) enum TrainCommand {
+    Basis(Box<basis::BasisArgs>),
+    Cmrt(Box<cmrt::CmrtArgs>),
     Poses(poses::PosesArgs),
     Preconditions(Box<preconditions::PreconditionsArgs>),
 }
@@ -23,6 +27,8 @@ pub(super) enum TrainCommand {
 impl TrainCommand {
     pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
         match self {
+            Self::Basis(args) => args.run(out),
+            Self::Cmrt(args) => args.run(out),
             Self::Poses(args) => args.run(out),
             Self::Preconditions(args) => args.run(out),
         }

@@ -7,8 +7,6 @@ use super::{Tunable, share_bend};
 use crate::dimension::{Dimension, linear, logarithmic};
 
 impl Tunable for BalanceSpec {
-    const KIND: &'static str = "balance";
-
     fn dimensions(&self, _: &Model) -> Vec<Dimension> {
         vec![
             logarithmic("kl", 5.0, 400.0),

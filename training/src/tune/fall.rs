@@ -7,8 +7,6 @@ use super::Tunable;
 use crate::dimension::{Dimension, linear, logarithmic};
 
 impl Tunable for FallSpec {
-    const KIND: &'static str = "fall";
-
     fn dimensions(&self, _: &Model) -> Vec<Dimension> {
         vec![
             linear("forward.reach.waist", -0.6, 0.4),

@@ -8,8 +8,6 @@ use super::Tunable;
 use crate::dimension::{Dimension, linear, logarithmic};
 
 impl Tunable for PoseSpec {
-    const KIND: &'static str = "pose";
-
     fn dimensions(&self, model: &Model) -> Vec<Dimension> {
         let mut all = Vec::new();
         for (i, state) in self.states.iter().enumerate() {

@@ -7,8 +7,6 @@ use super::{Tunable, share_bend};
 use crate::dimension::{Dimension, linear, logarithmic};
 
 impl Tunable for StanceSpec {
-    const KIND: &'static str = "stance";
-
     fn dimensions(&self, _: &Model) -> Vec<Dimension> {
         vec![
             linear("com_ahead", -0.05, 0.03),

@@ -7,8 +7,6 @@ use super::Tunable;
 use crate::dimension::{Dimension, linear, logarithmic};
 
 impl Tunable for StepSpec {
-    const KIND: &'static str = "step";
-
     fn dimensions(&self, _: &Model) -> Vec<Dimension> {
         let mut all = Vec::new();
         for way in ["forward", "backward"] {

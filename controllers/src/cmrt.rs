@@ -1,0 +1,438 @@
+//! Anticipatory balance: momentum control whose reference centre of mass is drawn forth and back in
+//! time for a task that is known to come (2017 paper, sections 3 and 4).
+//!
+//! poses, phases, gains, trajectories → [`CmrtController`]; sensors → reference pose and centre of
+//! mass → momentum control → torques. The reference is the middle of the base of support plus the
+//! displacements of all motions under way, so that overlapping ones superpose.
+//!
+//! Succeeds when its motions are over and its post-condition holds. Fails as its contract says: when
+//! what it met is not what it expected, the others take over.
+
+mod motion;
+mod spline;
+mod trajectory;
+
+use std::sync::Arc;
+
+use aplomb_framework::command::Command;
+use aplomb_framework::contract::Contract;
+use aplomb_framework::controller::{Controller, Progress};
+use aplomb_framework::file::Source;
+use aplomb_framework::kinematics::Kinematics;
+use aplomb_framework::model::Model;
+use aplomb_framework::registry::{ControllerFile, Spec};
+use aplomb_framework::sensors::Sensors;
+use aplomb_framework::state::State;
+use aplomb_framework::{Error, Result, simulation};
+use serde::{Deserialize, Serialize};
+
+use crate::balance::BalanceSpec;
+use crate::gains::Gains;
+use crate::momentum::Swing;
+use crate::target::{bounded, overlay};
+use crate::upright::Upright;
+pub use motion::{Key, MOST_KEYS, Motion, Schedule, Timeline};
+pub use spline::Spline;
+pub use trajectory::{Cmrt, FARTHEST, LEAST_GAP, MOST_KNOTS, interpolated, validate};
+
+/// At most this many motions in a row.
+pub const MOST_MOTIONS: usize = 16;
+
+/// How fast the reference follows the middle of the base of support, m/s.
+const GLIDE: f64 = 0.3;
+
+/// Balance as it is shipped, whose gains serve every clip and character.
+const BALANCE: &str = include_str!("../skills/balance.ron");
+
+/// Parameters of [`CmrtController`] in a file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CmrtSpec {
+    /// Gains and the pose that is begun with; those of the shipped `balance` if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub balance: Option<BalanceSpec>,
+    /// The motions, in the order of their beginnings.
+    pub motions: Vec<Motion>,
+}
+
+/// A pose to go to.
+#[derive(Debug, Clone)]
+struct Waypoint {
+    pose: Vec<f64>,
+    /// Pitch of the root with a foot flat, rad.
+    pitch: f64,
+    /// Height of the centre of mass, m.
+    height: f64,
+    /// Place of a foot that is off the ground.
+    lifted: Option<usize>,
+    /// Place of its motion, and when in it, in phases.
+    motion: usize,
+    from: f64,
+    to: f64,
+    /// The same in s after the beginning, since the last [`Controller::enter`].
+    times: [f64; 2],
+}
+
+/// A place on the way from one pose to the next.
+#[derive(Debug, Clone, Copy)]
+struct Way {
+    from: usize,
+    to: usize,
+    /// Part of the way, 0 to 1.
+    eased: f64,
+    /// Its first and second derivative, 1/s and 1/s².
+    rate: f64,
+    acceleration: f64,
+}
+
+/// The controller.
+#[derive(Debug, Clone)]
+pub struct CmrtController {
+    contract: Contract,
+    upright: Upright,
+    gains: Gains,
+    com_ahead: f64,
+    motions: Vec<Motion>,
+    /// The first is where the motion begins; in the order of time.
+    waypoints: Vec<Waypoint>,
+    /// Of the motions, since the last [`Controller::enter`].
+    timelines: Vec<Timeline>,
+    splines: Vec<Option<Spline>>,
+    command: Option<Command>,
+    began: f64,
+    /// s after the beginning.
+    elapsed: f64,
+    /// The middle of the base of support with the balance's offset, followed, world x, m.
+    middle: f64,
+}
+
+impl Spec for CmrtSpec {
+    const KIND: &'static str = "cmrt";
+
+    fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
+        Ok(Box::new(self.controller(contract, model)?))
+    }
+}
+
+impl CmrtSpec {
+    /// The controller, for who wants to give it other trajectories.
+    ///
+    /// # Errors
+    /// As [`Spec::build`].
+    pub fn controller(self, contract: Contract, model: &Arc<Model>) -> Result<CmrtController> {
+        let place = contract.name.clone();
+        let count = self.motions.len() as f64;
+        bounded(&place, "motions", count, 1.0, MOST_MOTIONS as f64)?;
+        let balance = match self.balance {
+            Some(balance) => balance,
+            None => shipped_balance()?,
+        };
+        let upright = Upright::new(
+            &place,
+            model,
+            balance.formulation,
+            balance.gains.clone(),
+            &balance.pose,
+            &balance.joint_weights,
+        )?;
+        bounded(&place, "com_ahead", balance.com_ahead, -0.2, 0.2)?;
+        let parameters = contract.commands.iter().flat_map(|a| &a.parameters);
+        let known: Vec<&str> = parameters.map(|p| p.name.as_str()).collect();
+        let mut waypoints = vec![waypoint(model, &upright.reference.pose)];
+        let mut before = 0.0;
+        for (i, motion) in self.motions.iter().enumerate() {
+            let at = format!("{place}: motions[{i}]");
+            motion.validate(&at)?;
+            bounded(&at, "start", motion.start, before, 3600.0)?;
+            before = motion.start;
+            for name in motion.timed_by.iter().chain(&motion.parameter) {
+                if !known.contains(&name.as_str()) {
+                    return Err(Error::unknown("parameter", name, known).at(&at));
+                }
+            }
+            for (k, key) in motion.keys.iter().enumerate() {
+                let mut pose = waypoints[waypoints.len() - 1].pose.clone();
+                let field = format!("{at}: keys[{k}].pose");
+                overlay(model, &key.pose, &field, [-7.0, 7.0], &mut pose)?;
+                let lifted = key.lifted.as_deref().map(|l| foot_named(model, l));
+                waypoints.push(Waypoint {
+                    lifted: lifted.transpose()?,
+                    motion: i,
+                    from: key.from,
+                    to: key.to,
+                    ..waypoint(model, &pose)
+                });
+            }
+        }
+        let mut controller = CmrtController {
+            gains: balance.gains,
+            com_ahead: balance.com_ahead,
+            timelines: Vec::with_capacity(self.motions.len()),
+            splines: Vec::with_capacity(self.motions.len()),
+            motions: self.motions,
+            waypoints,
+            command: None,
+            began: 0.0,
+            elapsed: 0.0,
+            middle: 0.0,
+            upright,
+            contract,
+        };
+        controller.plan();
+        Ok(controller)
+    }
+}
+
+fn shipped_balance() -> Result<BalanceSpec> {
+    let source = Source::new("built-in skills/balance.ron", BALANCE);
+    let file: ControllerFile = source.parse()?;
+    Source::new(source.origin, file.spec.get_ron()).parse()
+}
+
+fn foot_named(model: &Model, link: &str) -> Result<usize> {
+    let link = model.link_index(link)?;
+    let name = |l: usize| model.links[l].name.as_str();
+    let feet = || model.feet.iter().map(|f| f.link);
+    feet()
+        .position(|f| f == link)
+        .ok_or_else(|| Error::unknown("foot", name(link), feet().map(name)))
+}
+
+/// A pose on a flat foot: of the feet the one that is lowest.
+fn waypoint(model: &Model, pose: &[f64]) -> Waypoint {
+    let mut state = State::standing(model);
+    state.q[3..].copy_from_slice(pose);
+    let mut kinematics = Kinematics::new(model);
+    let mut best: Option<(f64, f64, f64)> = None;
+    for foot in &model.feet {
+        state.q[2] = 0.0;
+        kinematics.update(model, &state);
+        // Turned so that this foot's sole is level.
+        state.q[2] = -kinematics.links[foot.link].angle;
+        kinematics.update(model, &state);
+        let sole = kinematics.point(foot.link, foot.toe)[1];
+        if best.is_none_or(|(lowest, ..)| sole < lowest) {
+            simulation::put_on_ground(model, &mut state, 0.0);
+            kinematics.update(model, &state);
+            best = Some((sole, state.q[2], kinematics.com[1]));
+        }
+    }
+    let (_, pitch, height) = best.unwrap_or((0.0, 0.0, model.standing_com()[1]));
+    Waypoint {
+        pose: pose.to_vec(),
+        pitch: aplomb_framework::state::wrapped(pitch),
+        height,
+        lifted: None,
+        motion: 0,
+        from: 0.0,
+        to: 0.0,
+        times: [0.0; 2],
+    }
+}
+
+impl CmrtController {
+    /// s from the beginning of the first motion to the end of the last, as last commanded.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.timelines
+            .iter()
+            .map(|t| t.time(3.0))
+            .fold(0.0, f64::max)
+    }
+
+    /// When the phases of a motion are, as last commanded.
+    #[must_use]
+    pub fn timeline(&self, motion: usize) -> Option<&Timeline> {
+        self.timelines.get(motion)
+    }
+
+    /// The same controller with another trajectory, or none, for one motion whatever its parameter.
+    #[must_use]
+    pub fn with_cmrt(mut self, motion: usize, cmrt: Option<Cmrt>) -> Self {
+        if let Some(motion) = self.motions.get_mut(motion) {
+            motion.cmrts = cmrt.into_iter().collect();
+        }
+        self.plan();
+        self
+    }
+
+    /// The reference pose `elapsed` s after the beginning, rad, one a joint.
+    pub fn pose_at(&self, elapsed: f64, pose: &mut [f64]) {
+        let way = self.way(elapsed);
+        let ends = self.waypoints[way.from]
+            .pose
+            .iter()
+            .zip(&self.waypoints[way.to].pose);
+        for (angle, (a, b)) in pose.iter_mut().zip(ends) {
+            *angle = a + way.eased * (b - a);
+        }
+    }
+
+    /// Where between two poses the reference is, by smoothstep.
+    fn way(&self, elapsed: f64) -> Way {
+        let later = self.waypoints.iter().skip(1);
+        let to = later.take_while(|w| w.times[0] <= elapsed).count();
+        let [begin, end] = self.waypoints[to].times;
+        let span = (end - begin).max(1e-3);
+        let u = if to == 0 {
+            1.0
+        } else {
+            (elapsed - begin) / span
+        };
+        let moving = f64::from(u8::from(u < 1.0));
+        let u = u.min(1.0);
+        Way {
+            from: to.saturating_sub(1),
+            to,
+            eased: u * u * (3.0 - 2.0 * u),
+            rate: moving * 6.0 * u * (1.0 - u) / span,
+            acceleration: moving * (6.0 - 12.0 * u) / (span * span),
+        }
+    }
+
+    /// The same controller as it answers to a command.
+    ///
+    /// # Errors
+    /// What [`Controller::obey`] refuses.
+    pub fn commanded(mut self, command: &Command) -> Result<Self> {
+        self.obey(command)?;
+        self.plan();
+        Ok(self)
+    }
+
+    /// Fixes times and curves by the last command. Allocates nothing after the first time.
+    fn plan(&mut self) {
+        self.timelines.clear();
+        self.splines.clear();
+        let command = self.command.as_ref();
+        for motion in &self.motions {
+            let value = |name: &Option<String>, otherwise: f64| {
+                let parameter = |n: &String| self.contract.parameter(command, n, otherwise);
+                name.as_ref().map_or(otherwise, parameter)
+            };
+            let task = value(&motion.timed_by, motion.task);
+            self.timelines.push(motion.timeline(task));
+            let cmrt = trajectory::interpolated(&motion.cmrts, value(&motion.parameter, 0.0));
+            self.splines.push(cmrt.as_ref().map(Spline::new));
+        }
+        let mut before = 0.0;
+        for waypoint in self.waypoints.iter_mut().skip(1) {
+            let timeline = &self.timelines[waypoint.motion];
+            let begin = timeline.time(waypoint.from).max(before);
+            before = timeline.time(waypoint.to).max(begin + 1e-3);
+            waypoint.times = [begin, before];
+        }
+    }
+
+    /// Moves the reference to the time since the beginning.
+    fn steer(&mut self, now: &Sensors) {
+        let passed = self.upright.passed(now);
+        self.elapsed = now.time - self.began;
+        let t = self.elapsed;
+        if let Some(centre) = now.support_centre() {
+            let step = GLIDE * passed;
+            self.middle += (centre + self.com_ahead - self.middle).clamp(-step, step);
+        }
+        let way = self.way(t);
+        let (from, to) = (&self.waypoints[way.from], &self.waypoints[way.to]);
+        let reference = &mut self.upright.reference;
+        for (j, (a, b)) in from.pose.iter().zip(&to.pose).enumerate() {
+            reference.pose[j] = a + way.eased * (b - a);
+            reference.rates[j] = way.rate * (b - a);
+            reference.accelerations[j] = way.acceleration * (b - a);
+        }
+        reference.pitch = from.pitch + way.eased * (to.pitch - from.pitch);
+        let rise = to.height - from.height;
+        let (height, climb) = (from.height + way.eased * rise, way.rate * rise);
+        let (mut displacement, mut velocity) = (0.0, 0.0);
+        for (timeline, spline) in self.timelines.iter().zip(&self.splines) {
+            if let Some(spline) = spline {
+                let (d, v) = spline.at(timeline.since(t));
+                displacement += d;
+                velocity += v;
+            }
+        }
+        reference.com = [self.middle + displacement, now.ground + height];
+        reference.com_velocity = [velocity, climb];
+        let foot = to.lifted.or(from.lifted.filter(|_| way.eased < 1.0));
+        reference.swing = foot.map(|foot| free(foot, now));
+        let weights = self.timelines.iter().map(|line| line.task_weight(t));
+        let doing = self.motions.iter().zip(weights).find(|(_, w)| *w > 0.0);
+        self.upright.set_gains(match doing {
+            Some((motion, weight)) => motion.schedule.scaled(&self.gains, weight),
+            None => self.gains.clone(),
+        });
+    }
+
+    /// Whether the motion has its hands closed now.
+    #[must_use]
+    pub fn hands_closed(&self) -> bool {
+        let mut all = self.motions.iter().zip(&self.timelines);
+        all.any(|(motion, line)| {
+            let within =
+                |[from, to]: [f64; 2]| (line.time(from)..line.time(to)).contains(&self.elapsed);
+            motion.grips.is_some_and(within)
+        })
+    }
+}
+
+/// A foot that carries nothing and goes where its joints' targets take it.
+fn free(foot: usize, now: &Sensors) -> Swing {
+    Swing {
+        foot,
+        position: now.com,
+        velocity: [0.0; 2],
+        angle: 0.0,
+        stiffness: 0.0,
+        weight: 0.0,
+    }
+}
+
+impl Controller for CmrtController {
+    fn contract(&self) -> &Contract {
+        &self.contract
+    }
+
+    fn enter(&mut self, now: &Sensors) {
+        self.plan();
+        self.upright.enter(now);
+        (self.began, self.elapsed, self.middle) = (now.time, 0.0, now.com[0]);
+    }
+
+    fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
+        self.steer(now);
+        self.upright.act(now, torques);
+    }
+
+    fn clone_box(&self) -> Box<dyn Controller> {
+        Box::new(self.clone())
+    }
+
+    fn progress(&self, now: &Sensors, elapsed: f64, kept: Option<f64>) -> Progress {
+        let contract = &self.contract;
+        if let Some(refusal) = contract.expected.first_failure(now) {
+            return Progress::Failed(format!("expected {refusal}"));
+        }
+        // Success before the motions are over would cut them short.
+        if elapsed >= self.length() && kept.is_some_and(|k| k >= contract.hold) {
+            return Progress::Succeeded;
+        }
+        if elapsed > contract.patience {
+            return Progress::Failed(format!("not done after {} s", contract.patience));
+        }
+        Progress::Running
+    }
+
+    fn obey(&mut self, command: &Command) -> Result<bool> {
+        let Some(answer) = self.contract.answer(command) else {
+            return Ok(false);
+        };
+        answer.check(command)?;
+        self.command = Some(command.clone());
+        Ok(true)
+    }
+
+    fn reference_com(&self) -> Option<f64> {
+        Some(self.upright.reference.com[0])
+    }
+}

@@ -1,0 +1,163 @@
+//! A clip: a scenario whose first character is commanded to an anticipatory controller.
+//!
+//! scenario, repertoire → [`Clip`] → minds with other trajectories.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use aplomb_controllers::cmrt::{Cmrt, CmrtController, CmrtSpec};
+use aplomb_framework::command::Command;
+use aplomb_framework::contract::Contract;
+use aplomb_framework::controller::Controller;
+use aplomb_framework::model::Model;
+use aplomb_framework::registry::{Registry, Spec};
+use aplomb_framework::scenario::{Happening, Scenario};
+use aplomb_framework::supervisor::Supervisor;
+use aplomb_framework::{Error, Result};
+
+use crate::skill::Skill;
+use crate::tune::{line_of, spec_in, text_of};
+
+/// What is optimised: one motion of the controller that a scenario commands.
+#[derive(Debug, Clone)]
+pub struct Clip {
+    /// The world, the real parameters, what is expected.
+    pub scenario: Scenario,
+    /// The first character.
+    pub model: Arc<Model>,
+    /// The controller in its place.
+    pub skill: Skill,
+    /// s at which it is commanded.
+    pub at: f64,
+    spec: CmrtSpec,
+    /// As commanded, with its own trajectories.
+    controller: CmrtController,
+    /// The value of the motion's parameter, as commanded.
+    value: f64,
+}
+
+impl Clip {
+    /// The clip of a scenario with its parameters set.
+    ///
+    /// # Errors
+    /// No command, or one to a controller of another kind; an invalid repertoire or controller.
+    pub fn new(scenario: Scenario, registry: &Registry) -> Result<Self> {
+        let role = &scenario.characters[0];
+        let model = Model::load(&role.character)?;
+        let repertoire = role.repertoire.as_deref().unwrap_or(&model.name);
+        let skills = Skill::all(repertoire, registry, &model)?;
+        let (at, text) = commanded(&scenario)?;
+        let command: Command = text.parse()?;
+        let answers = |s: &&Skill| {
+            let mut contract = s.contract.clone();
+            contract.resolve(&model).is_ok() && contract.answer(&command).is_some()
+        };
+        let skill = skills.iter().find(answers).ok_or_else(|| {
+            let known = skills.iter().map(Skill::name);
+            Error::unknown("command", &command.name, known)
+        })?;
+        if skill.kind() != CmrtSpec::KIND {
+            let (problem, accepted) = (skill.kind(), CmrtSpec::KIND);
+            return Err(Error::invalid(skill.name(), "kind", problem, accepted));
+        }
+        let spec: CmrtSpec = spec_in(skill.name(), &skill.file)?;
+        let controller = spec
+            .clone()
+            .controller(skill.contract.clone(), &model)?
+            .commanded(&command)?;
+        let named = spec.motions.first().and_then(|m| m.parameter.as_ref());
+        let value = named.map_or(0.0, |n| skill.contract.parameter(Some(&command), n, 0.0));
+        Ok(Self {
+            skill: skill.clone(),
+            scenario,
+            model,
+            at,
+            spec,
+            controller,
+            value,
+        })
+    }
+
+    /// The controller's contract.
+    #[must_use]
+    pub fn contract(&self) -> &Contract {
+        &self.skill.contract
+    }
+
+    /// The scenario's parameters as they are set.
+    #[must_use]
+    pub fn parameters(&self) -> BTreeMap<String, f64> {
+        self.scenario.parameters.clone()
+    }
+
+    /// s of the first motion.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.spec.motions[0].length
+    }
+
+    /// The controller as commanded, with its own trajectories.
+    #[must_use]
+    pub fn controller(&self) -> &CmrtController {
+        &self.controller
+    }
+
+    /// The trajectory that its file has for this command, if any.
+    #[must_use]
+    pub fn shipped(&self) -> Option<Cmrt> {
+        aplomb_controllers::cmrt::interpolated(&self.spec.motions[0].cmrts, self.value)
+    }
+
+    /// The repertoire with the controller's first motion along another trajectory, or none.
+    ///
+    /// # Errors
+    /// What makes a repertoire invalid.
+    pub fn mind(&self, cmrt: Option<Cmrt>) -> Result<Supervisor> {
+        let controller = self.controller.clone().with_cmrt(0, cmrt);
+        self.skill.mind.with_replaced(controller.clone_box())
+    }
+
+    /// The controller's file with one more trajectory, in the place of one for the same value.
+    #[must_use]
+    pub fn text(&self, cmrt: &Cmrt, comment: &str) -> String {
+        text_of(&self.skill.file.contract, &self.with(cmrt), comment)
+    }
+
+    /// The same in one line.
+    #[must_use]
+    pub fn line(&self, cmrt: &Cmrt) -> String {
+        line_of(&self.skill.file.contract, &self.with(cmrt))
+    }
+
+    fn with(&self, cmrt: &Cmrt) -> CmrtSpec {
+        let mut spec = self.spec.clone();
+        let family = &mut spec.motions[0].cmrts;
+        let value = self.value;
+        family.retain(|c| c.value != value && c.times.len() == cmrt.times.len());
+        let place = family.partition_point(|c| c.value < value);
+        family.insert(
+            place,
+            Cmrt {
+                value,
+                ..cmrt.clone()
+            },
+        );
+        spec
+    }
+}
+
+/// The first command to the first character, and when, s.
+fn commanded(scenario: &Scenario) -> Result<(f64, String)> {
+    for event in &scenario.events {
+        if let Happening::Command {
+            at,
+            text,
+            character: 0,
+        } = event
+        {
+            return Ok((scenario.number(at)?, text.clone()));
+        }
+    }
+    let accepted = "a command to the first character, which starts the clip";
+    Err(Error::invalid(&scenario.name, "events", "none", accepted))
+}

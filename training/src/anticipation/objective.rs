@@ -1,0 +1,162 @@
+//! How well a trajectory does in a clip: the centre of pressure's distance from the middle of the
+//! base of support, with what is charged for a task that is not done (2017 paper, section 4.1).
+//!
+//! clip, trajectory → rollout → [`Evaluation`].
+
+use aplomb_controllers::cmrt::Cmrt;
+use aplomb_framework::Result;
+use aplomb_framework::model::Model;
+use aplomb_framework::scenario::Scenario;
+use aplomb_framework::simulation::Simulation;
+use aplomb_framework::supervisor::Supervisor;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use super::clip::Clip;
+
+/// Charged for a pose that is missed, a radian (root of the mean square over joints and time).
+const TRACKING: f64 = 2.0;
+/// Charged for a fall, and as much again if it is at once.
+const FALL: f64 = 10.0;
+/// Charged for all expectations together if none is met.
+const MISSED: f64 = 5.0;
+
+/// Perturbed starts by which success is judged, and how many have to succeed.
+pub const PERTURBED: usize = 20;
+/// See [`PERTURBED`].
+pub const ENOUGH: usize = 18;
+/// Their joints' largest offset, rad: 0.5°.
+const OFFSET: f64 = 0.5 * std::f64::consts::PI / 180.0;
+/// Their largest velocity, m/s.
+const VELOCITY: f64 = 0.002;
+
+/// What one rollout showed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Evaluation {
+    /// Least is best.
+    pub objective: f64,
+    /// √Σ e² over the steps of 1 ms of the motion with a foot on the ground; e in m.
+    pub cop_norm: f64,
+    /// Root of the mean square of the joints' distance from the reference pose from the task on,
+    /// rad.
+    pub tracking: f64,
+    /// Whether the controller came to its end and every expectation of the scenario was met.
+    pub succeeds: bool,
+}
+
+/// Runs the clip along a trajectory, or none.
+///
+/// # Errors
+/// What makes a scenario or repertoire invalid.
+pub fn evaluate(clip: &Clip, cmrt: Option<&Cmrt>) -> Result<Evaluation> {
+    let mind = clip.mind(cmrt.cloned())?;
+    rollout(clip, &clip.scenario, mind, None)
+}
+
+/// From how many of [`PERTURBED`] slightly different starts the clip succeeds.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn successes(clip: &Clip, cmrt: Option<&Cmrt>, seed: u64) -> Result<usize> {
+    let mind = clip.mind(cmrt.cloned())?;
+    let one = |i: usize| {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(i as u64 + 1);
+        let mut scenario = clip.scenario.clone();
+        perturb(&mut scenario, &clip.model, &mut random)?;
+        let velocity = random.gen_range(-VELOCITY..=VELOCITY);
+        rollout(clip, &scenario, mind.clone(), Some(velocity)).map(|e| e.succeeds)
+    };
+    let all: Result<Vec<bool>> = (0..PERTURBED).into_par_iter().map(one).collect();
+    Ok(all?.into_iter().filter(|s| *s).count())
+}
+
+/// Offsets of all joints of the first character's start.
+fn perturb(scenario: &mut Scenario, model: &Model, random: &mut ChaCha8Rng) -> Result<()> {
+    let start = &mut scenario.characters[0].start;
+    for joint in model.joints() {
+        let angle = start.angles.entry(joint.name.clone()).or_insert(0.0);
+        let offset = random.gen_range(-OFFSET..=OFFSET);
+        *angle = (*angle + offset).clamp(joint.range[0], joint.range[1]);
+    }
+    Ok(())
+}
+
+/// What a rollout has summed up so far.
+#[derive(Debug, Default)]
+struct Sums {
+    cop: f64,
+    tracking: f64,
+    tracked: usize,
+}
+
+/// One rollout; it ends early when the controller has been left before its end.
+fn rollout(
+    clip: &Clip,
+    scenario: &Scenario,
+    mind: Supervisor,
+    velocity: Option<f64>,
+) -> Result<Evaluation> {
+    let cast = vec![(std::sync::Arc::clone(&clip.model), mind)];
+    let mut run = Simulation::with_cast(scenario, cast)?;
+    if let Some(velocity) = velocity {
+        let root = clip.model.links[0].name.clone();
+        let impulse = velocity * clip.model.total_mass();
+        run.shove(0, &root, [impulse, 0.0], scenario.settings.dt)?;
+    }
+    let name = &clip.contract().name;
+    let controller = clip.controller();
+    let end = clip.at + controller.length();
+    let task = controller
+        .timeline(0)
+        .map_or(clip.at, |t| clip.at + t.time(1.0));
+    let dt = scenario.settings.dt;
+    let mut pose = vec![0.0; clip.model.joint_count()];
+    let mut sums = Sums::default();
+    let mut fell = None;
+    while run.time() + 0.5 * dt < scenario.duration {
+        run.step();
+        let now = run.sensors(0);
+        let since = now.time - clip.at;
+        if since < 0.0 || now.time > end {
+            continue;
+        }
+        let active = run.actors()[0].mind.active();
+        if now.is_down() || (active != Some(name) && now.time < end - 2.0 * dt) {
+            fell = Some(now.time);
+            break;
+        }
+        // Without a foot on the ground there is no centre of pressure: left out, as in the paper.
+        if let (Some(p), Some(s)) = (now.cop, now.support_centre()) {
+            sums.cop += (p - s).powi(2);
+        }
+        if now.time >= task {
+            controller.pose_at(since, &mut pose);
+            let off = |(a, b): (&f64, &f64)| (a - b).powi(2);
+            let squares: f64 = now.state.angles().iter().zip(&pose).map(off).sum();
+            sums.tracking += squares / pose.len() as f64;
+            sums.tracked += 1;
+        }
+    }
+    let unmet = scenario
+        .expect
+        .iter()
+        .filter(|e| run.disappointment(std::slice::from_ref(e)).is_some())
+        .count();
+    let tracking = (sums.tracking / sums.tracked.max(1) as f64).sqrt();
+    // The paper's norm is over steps of 1 ms.
+    let cop_norm = (sums.cop * dt / 1e-3).sqrt();
+    let missed = MISSED * unmet as f64 / scenario.expect.len().max(1) as f64;
+    let objective = match fell {
+        // What has not been lived to see is no gain.
+        Some(t) => FALL * (2.0 - ((t - clip.at) / (end - clip.at)).clamp(0.0, 1.0)) + MISSED,
+        None => cop_norm + TRACKING * tracking + missed,
+    };
+    Ok(Evaluation {
+        objective,
+        cop_norm,
+        tracking,
+        succeeds: fell.is_none() && unmet == 0,
+    })
+}
