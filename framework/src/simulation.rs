@@ -31,6 +31,7 @@ pub fn tick<'a>(
     let now = world.sense(character);
     mind.act(now, torques);
     world.actuate(character, torques);
+    world.grip(character, mind.grips());
     &world.characters()[character].sensors
 }
 

@@ -87,5 +87,6 @@ fn ball(mass: f64, position: [f64; 2], velocity: [f64; 2]) -> Prop {
         velocity,
         friction: 0.5,
         restitution: 0.0,
+        grip: 0.0,
     }
 }
