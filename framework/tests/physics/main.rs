@@ -7,6 +7,7 @@ mod tree;
 mod contact;
 mod limits;
 mod motion;
+mod props;
 
 use std::sync::Arc;
 
