@@ -1,22 +1,20 @@
 //! A character in rapier sets that anybody owns and steps: spawn, sense, actuate.
 //!
 //! [`Model`] + [`State`] → rigid bodies, colliders and hinges; after each step of their owner
-//! → [`Sensors`]; before each step torques → hinges. With `world.rs` the only file that names the
-//! engine. The engine's numbers are single precision; sensed states are rounded to it, so that a
+//! → [`Sensors`]; before each step torques → hinges. With `world.rs` and its parts the only file that names
+//! the engine. The engine's numbers are single precision; sensed states are rounded to it, so that a
 //! recorded state is the sensed state, bit for bit.
 
 use std::sync::Arc;
 
-use rapier2d::geometry::ContactPair;
 use rapier2d::prelude::*;
 
+use crate::contact::each_point;
 use crate::kinematics::{Kinematics, turned};
 use crate::model::{Model, Point, Shape};
 use crate::sensors::{FootContact, LinkContact, Sensors};
 use crate::state::{State, wrapped};
 
-/// A gap below which a link touches, m.
-const TOUCHING: f32 = 3e-3;
 /// A contact within this distance of a knee's hinge is the knee's, m.
 const KNEE: f64 = 0.1;
 /// A contact supports a link if its normal on the link points up by at least this.
@@ -115,6 +113,11 @@ impl Body {
         self.links[link]
     }
 
+    /// The collider of a link.
+    pub(crate) fn collider(&self, link: usize) -> ColliderHandle {
+        self.colliders[link]
+    }
+
     /// Reads the state and the contacts after a step of `dt` s (or before the first one).
     /// `time` and `gravity` (downwards positive) are the owner's. Allocates nothing.
     pub fn sense(
@@ -140,7 +143,7 @@ impl Body {
             let mut moment = 0.0;
             for pair in narrow_phase.contact_pairs_with(*collider) {
                 each_point(pair, *collider, colliders, dt, |p| {
-                    if p.gap > TOUCHING && p.force == [0.0; 2] {
+                    if !p.touches() {
                         return;
                     }
                     contact.touching = true;
@@ -220,63 +223,14 @@ impl Body {
 /// The collider of a link's outline.
 pub(crate) fn outline(shape: &Shape) -> ColliderBuilder {
     match *shape {
+        Shape::Capsule { radius, from, to } if from == to => {
+            ColliderBuilder::ball(radius as f32).translation(vector(from))
+        }
         Shape::Capsule { radius, from, to } => {
             ColliderBuilder::capsule_from_endpoints(vector(from), vector(to), radius as f32)
         }
         Shape::Box { half, centre } => {
             ColliderBuilder::cuboid(half[0] as f32, half[1] as f32).translation(vector(centre))
-        }
-    }
-}
-
-/// One point of contact of a collider.
-#[derive(Debug, Clone, Copy)]
-struct ContactPoint {
-    /// World, m.
-    at: [f64; 2],
-    /// In the frame of the collider's body, m.
-    in_body: [f64; 2],
-    /// On the collider, N.
-    force: [f64; 2],
-    /// Upward part of the contact's normal on the collider.
-    normal_up: f32,
-    /// m; negative if it overlaps.
-    gap: f32,
-}
-
-/// Visits every contact point of a pair, seen from one of its colliders.
-fn each_point(
-    pair: &ContactPair,
-    of: ColliderHandle,
-    colliders: &ColliderSet,
-    dt: f64,
-    mut visit: impl FnMut(ContactPoint),
-) {
-    let first = pair.collider1 == of;
-    let sign = if first { -1.0 } else { 1.0 };
-    let collider = &colliders[of];
-    for manifold in pair.solver_manifolds() {
-        let n = manifold.data.normal;
-        let t = Vector::new(-n.y, n.x);
-        for point in &manifold.points {
-            let local = if first {
-                point.local_p1
-            } else {
-                point.local_p2
-            };
-            let at = collider.position().transform_point(local);
-            let force = n * point.data.impulse + t * point.data.tangent_impulse[0];
-            let over = f64::from(sign) / dt;
-            let in_body = collider
-                .position_wrt_parent()
-                .map_or(local, |p| p.transform_point(local));
-            visit(ContactPoint {
-                at: [f64::from(at.x), f64::from(at.y)],
-                in_body: [f64::from(in_body.x), f64::from(in_body.y)],
-                force: [f64::from(force.x) * over, f64::from(force.y) * over],
-                normal_up: sign * n.y,
-                gap: point.dist,
-            });
         }
     }
 }

@@ -155,6 +155,24 @@ impl Condition {
         }
     }
 
+    /// Visits every feature that it names outright, until a visit fails.
+    ///
+    /// # Errors
+    /// The visit's.
+    pub(crate) fn each_feature(
+        &self,
+        visit: &mut impl FnMut(&Feature) -> Result<()>,
+    ) -> Result<()> {
+        match self {
+            Self::Within { feature, .. } => visit(feature),
+            Self::All(list) | Self::Any(list) => {
+                list.iter().try_for_each(|c| c.each_feature(visit))
+            }
+            Self::Not(c) => c.each_feature(visit),
+            Self::Always | Self::Never | Self::Posture(_) | Self::Svm(_) => Ok(()),
+        }
+    }
+
     /// Looks up the joints that features name, and checks the bounds.
     ///
     /// # Errors

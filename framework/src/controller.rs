@@ -78,6 +78,12 @@ pub trait Controller: Debug + Send + Sync {
         None
     }
 
+    /// Whether its hands are closed: they then hold what can be held and touches them, and let go
+    /// of it when they open. Asked after each [`act`](Self::act).
+    fn grips(&self) -> bool {
+        false
+    }
+
     /// What it has decided since it was last asked; only composites decide.
     fn take_decisions(&mut self) -> Vec<Decision> {
         Vec::new()

@@ -107,6 +107,20 @@ impl Error {
         }
     }
 
+    /// The same invalid field or unknown name, said to stand in the file or field `place`.
+    #[must_use]
+    pub(crate) fn placed(self, place: &str) -> Self {
+        match self {
+            Self::Invalid {
+                field,
+                problem,
+                accepted,
+                ..
+            } => Self::invalid(place, field, problem, accepted),
+            other => other.at(place),
+        }
+    }
+
     /// The same unknown name, said to stand in the file or field `place`.
     #[must_use]
     pub fn at(self, place: &str) -> Self {

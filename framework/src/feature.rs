@@ -9,10 +9,12 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use crate::error::{Error, Result};
 use crate::model::Model;
+use crate::sensed_prop::PROP_SCALARS;
 use crate::sensors::Sensors;
 use crate::vocabulary::{NONE, SCALARS};
 
-/// A named scalar of [`Sensors`]. In files: its name as a string, `com_height` or `angle.knee_r`.
+/// A named scalar of [`Sensors`]. In files: its name as a string, `com_height`,
+/// `angle.knee_r` or `prop_ahead.ball`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Feature(Kind);
 
@@ -21,6 +23,7 @@ enum Kind {
     Scalar(usize),
     Angle { joint: String, index: usize },
     Velocity { joint: String, index: usize },
+    Prop { scalar: usize, prop: String },
 }
 
 const UNRESOLVED: usize = usize::MAX;
@@ -33,6 +36,10 @@ impl Feature {
             Kind::Scalar(i) => (SCALARS[*i].value)(now),
             Kind::Angle { index, .. } => now.state.angles().get(*index).copied().unwrap_or(NONE),
             Kind::Velocity { index, .. } => now.state.rates().get(*index).copied().unwrap_or(NONE),
+            Kind::Prop { scalar, prop } => {
+                let sensed = now.props.iter().find(|p| *p.name == **prop);
+                sensed.map_or(NONE, PROP_SCALARS[*scalar].value)
+            }
         }
     }
 
@@ -43,6 +50,7 @@ impl Feature {
             Kind::Scalar(i) => SCALARS[*i].unit,
             Kind::Angle { .. } => "rad",
             Kind::Velocity { .. } => "rad/s",
+            Kind::Prop { scalar, .. } => PROP_SCALARS[*scalar].unit,
         }
     }
 
@@ -52,7 +60,7 @@ impl Feature {
     /// [`Error::Unknown`] if the model has no such joint.
     pub fn resolve(&mut self, model: &Model) -> Result<()> {
         match &mut self.0 {
-            Kind::Scalar(_) => {}
+            Kind::Scalar(_) | Kind::Prop { .. } => {}
             Kind::Angle { joint, index } | Kind::Velocity { joint, index } => {
                 *index = model.joint_index(joint)?;
             }
@@ -60,10 +68,33 @@ impl Feature {
         Ok(())
     }
 
-    /// Name, unit and meaning of every feature but the joints'.
+    /// The prop that the feature is about, if it is about one.
+    #[must_use]
+    pub fn prop(&self) -> Option<&str> {
+        match &self.0 {
+            Kind::Prop { prop, .. } => Some(prop),
+            _ => None,
+        }
+    }
+
+    /// Name, unit and meaning of every feature but those of single joints and props.
     pub fn vocabulary() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
         SCALARS.iter().map(|s| (s.name, s.unit, s.meaning))
     }
+
+    /// Name, unit and meaning of the features of single joints and props, which stand in capitals.
+    pub const FAMILIES: [(&'static str, &'static str, &'static str); 6] = [
+        ("angle.JOINT", "rad", "angle of a joint"),
+        ("velocity.JOINT", "rad/s", "angular velocity of a joint"),
+        ("prop_ahead.PROP", "m", "prop ahead of the root"),
+        (
+            "prop_height.PROP",
+            "m",
+            "prop above the surface last touched",
+        ),
+        ("prop_velocity.PROP", "m/s", "forward velocity of a prop"),
+        ("prop_held.PROP", "1", "1 if a hand holds the prop, else 0"),
+    ];
 }
 
 impl FromStr for Feature {
@@ -83,11 +114,15 @@ impl FromStr for Feature {
                 index: UNRESOLVED,
             }));
         }
+        if let Some((kind, prop)) = name.split_once('.')
+            && let Some(scalar) = PROP_SCALARS.iter().position(|s| s.name == kind)
+        {
+            let prop = prop.to_owned();
+            return Ok(Self(Kind::Prop { scalar, prop }));
+        }
         let known = || {
-            SCALARS
-                .iter()
-                .map(|s| s.name)
-                .chain(["angle.JOINT", "velocity.JOINT"])
+            let families = Self::FAMILIES.iter().map(|f| f.0);
+            SCALARS.iter().map(|s| s.name).chain(families)
         };
         SCALARS
             .iter()
@@ -103,6 +138,7 @@ impl fmt::Display for Feature {
             Kind::Scalar(i) => f.write_str(SCALARS[*i].name),
             Kind::Angle { joint, .. } => write!(f, "angle.{joint}"),
             Kind::Velocity { joint, .. } => write!(f, "velocity.{joint}"),
+            Kind::Prop { scalar, prop } => write!(f, "{}.{prop}", PROP_SCALARS[*scalar].name),
         }
     }
 }
@@ -134,6 +170,29 @@ mod tests {
             );
             assert_eq!(s.name.parse::<Feature>().unwrap().to_string(), s.name);
         }
+    }
+
+    #[test]
+    fn a_prop_that_is_not_there_has_no_value() {
+        let mut now = Sensors::new(&Model::load("humanoid").unwrap(), 9.81);
+        let mut ball = crate::sensors::SensedProp::new(&"ball".into());
+        (ball.ahead, ball.height, ball.velocity, ball.held) = (1.5, 1.25, [-7.0, 2.0], true);
+        for (name, unit, value) in [
+            ("prop_ahead.ball", "m", 1.5),
+            ("prop_height.ball", "m", 1.25),
+            ("prop_velocity.ball", "m/s", -7.0),
+            ("prop_held.ball", "1", 1.0),
+        ] {
+            let mut feature: Feature = name.parse().unwrap();
+            feature.resolve(&now.model).unwrap();
+            assert_eq!((feature.to_string().as_str(), feature.unit()), (name, unit));
+            assert_eq!(feature.prop(), Some("ball"));
+            assert!(feature.value(&now).is_nan());
+            now.props.push(ball.clone());
+            assert_eq!(feature.value(&now), value);
+            now.props.clear();
+        }
+        assert!("prop_hold.ball".parse::<Feature>().is_err());
     }
 
     #[test]

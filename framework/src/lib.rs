@@ -21,8 +21,10 @@
 //!
 //! Files whose items are found elsewhere: `model_file`, `model_tree`, `model_digest` (in [`model`]),
 //! `vocabulary` ([`feature`]), `boundary_bounds`, `boundary_decision` ([`boundary`]), `pool`,
-//! `decision` ([`supervisor`]), `scenario_bounds` ([`scenario`]), `start`, `schedule`, `actor`,
-//! `expectation` ([`simulation`]), `event`, `trajectory_file` ([`trajectory`]).
+//! `decision` ([`supervisor`]), `scenario_bounds`, `scenario_number`, `scenario_props`,
+//! `expectation` ([`scenario`]), `start`, `schedule`, `actor`, `watch` ([`simulation`]), `event`,
+//! `trajectory_file` ([`trajectory`]), `settings`, `prop`, `fastening`, `grips` ([`world`]),
+//! `contact` ([`body`]), `sensed_prop` ([`sensors`]).
 
 mod actor;
 pub mod body;
@@ -31,6 +33,7 @@ mod boundary_bounds;
 mod boundary_decision;
 pub mod command;
 pub mod condition;
+mod contact;
 pub mod contract;
 pub mod controller;
 mod decision;
@@ -38,8 +41,10 @@ pub mod dynamics;
 pub mod error;
 mod event;
 mod expectation;
+mod fastening;
 pub mod feature;
 pub mod file;
+mod grips;
 pub mod kinematics;
 pub mod model;
 mod model_digest;
@@ -47,12 +52,17 @@ mod model_file;
 mod model_tree;
 mod pool;
 pub mod prelude;
+mod prop;
 pub mod registry;
 pub mod repertoire;
 pub mod scenario;
 mod scenario_bounds;
+mod scenario_number;
+mod scenario_props;
 mod schedule;
+mod sensed_prop;
 pub mod sensors;
+mod settings;
 pub mod simulation;
 mod start;
 pub mod state;
@@ -60,6 +70,7 @@ pub mod supervisor;
 pub mod trajectory;
 mod trajectory_file;
 mod vocabulary;
+mod watch;
 pub mod world;
 
 pub use error::{Error, Result};

@@ -41,6 +41,17 @@ pub enum Shape {
     },
 }
 
+impl Shape {
+    /// Its middle, in the frame of what it outlines, m.
+    #[must_use]
+    pub fn middle(&self) -> Point {
+        match *self {
+            Self::Capsule { from, to, .. } => [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])],
+            Self::Box { centre, .. } => centre,
+        }
+    }
+}
+
 /// A hinge between a link and its parent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {

@@ -4,61 +4,25 @@
 //! RON → [`Scenario`] → simulation. Parameters that the file declares can be set from outside.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::Path;
 
 use serde::Deserialize;
-use serde::de::{self, Deserializer, Visitor};
 
 use crate::error::{Error, Result};
+pub use crate::expectation::{Expectation, Quantity};
 use crate::file::Source;
-use crate::sensors::Posture;
-use crate::world::{Prop, Settings};
+pub use crate::scenario_number::{Number, Parameter};
+pub use crate::scenario_props::{HingeEntry, PropEntry};
+use crate::world::Settings;
 
 /// The longest run, s.
 pub const LONGEST: f64 = 3600.0;
 /// s over which a push is spread unless it says otherwise.
 pub const PUSH_DURATION: f64 = 0.1;
-/// At most this many props, events or expectations.
+/// At most this many props, joints, events, expectations or parameters.
 pub const MOST_ENTRIES: usize = 1000;
 /// At most this many characters.
 pub const MOST_CHARACTERS: usize = 16;
-
-/// A number in a scenario: written out, or the name of one of the scenario's parameters.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Number {
-    /// Written out.
-    Value(f64),
-    /// The parameter's value, times a factor (`"-impulse"`).
-    Parameter(String, f64),
-}
-
-impl<'de> Deserialize<'de> for Number {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
-        struct AnyNumber;
-        impl Visitor<'_> for AnyNumber {
-            type Value = Number;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a number or the name of a parameter in quotes")
-            }
-            fn visit_f64<E: de::Error>(self, v: f64) -> std::result::Result<Number, E> {
-                Ok(Number::Value(v))
-            }
-            fn visit_i64<E: de::Error>(self, v: i64) -> std::result::Result<Number, E> {
-                Ok(Number::Value(v as f64))
-            }
-            fn visit_u64<E: de::Error>(self, v: u64) -> std::result::Result<Number, E> {
-                Ok(Number::Value(v as f64))
-            }
-            fn visit_str<E: de::Error>(self, v: &str) -> std::result::Result<Number, E> {
-                let (name, factor) = v.strip_prefix('-').map_or((v, 1.0), |n| (n, -1.0));
-                Ok(Number::Parameter(name.to_owned(), factor))
-            }
-        }
-        deserializer.deserialize_any(AnyNumber)
-    }
-}
 
 /// How a character begins.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
@@ -111,7 +75,8 @@ pub enum Happening {
     Command {
         /// s
         at: Number,
-        /// For the supervisor.
+        /// For the supervisor. `{NAME}` stands for the value of a parameter, `{-NAME}` for its
+        /// negative.
         text: String,
         /// Place of the character.
         #[serde(default)]
@@ -129,44 +94,6 @@ impl Happening {
 
 fn push_duration() -> f64 {
     PUSH_DURATION
-}
-
-/// What a run is expected to show.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Expectation {
-    /// Standing (as a run's end is judged) at the end.
-    Standing {
-        /// Place of the character.
-        #[serde(default)]
-        character: usize,
-    },
-    /// A controller becomes active.
-    Active {
-        /// Its name.
-        name: String,
-        /// At this time at the latest, s.
-        #[serde(default = "longest")]
-        before: f64,
-        /// Place of the character.
-        #[serde(default)]
-        character: usize,
-    },
-    /// The character takes on a posture.
-    Posture {
-        /// Which.
-        posture: Posture,
-        /// At this time at the latest, s.
-        #[serde(default = "longest")]
-        before: f64,
-        /// Place of the character.
-        #[serde(default)]
-        character: usize,
-    },
-}
-
-fn longest() -> f64 {
-    LONGEST
 }
 
 /// A validated scenario.
@@ -187,16 +114,19 @@ pub struct Scenario {
     pub characters: Vec<Role>,
     /// What stands or flies about.
     #[serde(default)]
-    pub props: Vec<Prop>,
+    pub props: Vec<PropEntry>,
+    /// Hinges between props, and between props and the world.
+    #[serde(default)]
+    pub joints: Vec<HingeEntry>,
     /// What is done, when.
     #[serde(default)]
     pub events: Vec<Happening>,
     /// What the run is expected to show.
     #[serde(default)]
     pub expect: Vec<Expectation>,
-    /// Numbers that can be set from outside, with their defaults.
+    /// Numbers that can be set from outside, with their defaults and what they may be set to.
     #[serde(default)]
-    pub parameters: BTreeMap<String, f64>,
+    pub parameters: BTreeMap<String, Parameter>,
 }
 
 impl Scenario {
@@ -214,6 +144,7 @@ impl Scenario {
                 start: Start::default(),
             }],
             props: Vec::new(),
+            joints: Vec::new(),
             events: Vec::new(),
             expect: Vec::new(),
             parameters: BTreeMap::new(),
@@ -242,40 +173,28 @@ impl Scenario {
     /// (of [`Settings`]), `duration`.
     ///
     /// # Errors
-    /// An unknown name, or a value out of bounds.
+    /// An unknown name, or a value that is out of bounds or puts anything else out of its bounds;
+    /// the scenario is then as it was.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
-        match name {
-            _ if self.parameters.contains_key(name) => {
-                self.parameters.insert(name.to_owned(), value);
-            }
-            "friction" => self.settings.friction = value,
-            "gravity" => self.settings.gravity = value,
-            "torque" => self.settings.torque = value,
-            "mass" => self.settings.mass = value,
-            "duration" => self.duration = value,
-            _ => {
-                let own = self.parameters.keys().map(String::as_str);
-                let known = own.chain(["friction", "gravity", "torque", "mass", "duration"]);
-                return Err(Error::unknown("parameter", name, known));
-            }
+        let mut changed = self.clone();
+        let own = changed.parameters.get_mut(name).map(|p| &mut p.value);
+        let settings = &mut changed.settings;
+        *match name {
+            _ if own.is_some() => own,
+            "friction" => Some(&mut settings.friction),
+            "gravity" => Some(&mut settings.gravity),
+            "torque" => Some(&mut settings.torque),
+            "mass" => Some(&mut settings.mass),
+            "duration" => Some(&mut changed.duration),
+            _ => None,
         }
-        self.validate(&Source::new(self.name.clone(), ""))
-    }
-
-    /// The value of a number of this scenario.
-    ///
-    /// # Errors
-    /// A parameter that the scenario does not declare.
-    pub fn number(&self, number: &Number) -> Result<f64> {
-        match number {
-            Number::Value(v) => Ok(*v),
-            Number::Parameter(name, factor) => {
-                let known = self.parameters.keys().map(String::as_str);
-                let value = self.parameters.get(name);
-                value
-                    .map(|v| v * factor)
-                    .ok_or_else(|| Error::unknown("parameter", name, known))
-            }
-        }
+        .ok_or_else(|| {
+            let own = self.parameters.keys().map(String::as_str);
+            let known = own.chain(["friction", "gravity", "torque", "mass", "duration"]);
+            Error::unknown("parameter", name, known)
+        })? = value;
+        changed.validate(&Source::new(self.name.clone(), ""))?;
+        *self = changed;
+        Ok(())
     }
 }

@@ -6,9 +6,9 @@ use crate::error::{Error, Result};
 use crate::file::Source;
 use crate::model::{Point, Shape};
 use crate::scenario::{
-    Expectation, Happening, LONGEST, MOST_CHARACTERS, MOST_ENTRIES, Number, Scenario,
+    Expectation, Happening, HingeEntry, LONGEST, MOST_CHARACTERS, MOST_ENTRIES, Number, PropEntry,
+    Scenario,
 };
-use crate::world::Prop;
 
 impl Scenario {
     /// Checks every bound.
@@ -49,14 +49,18 @@ impl Scenario {
         )?;
         for (field, len) in [
             ("props", self.props.len()),
+            ("joints", self.joints.len()),
             ("events", self.events.len()),
             ("expect", self.expect.len()),
             ("parameters", self.parameters.len()),
         ] {
             check(field, len as f64, 0.0, MOST_ENTRIES as f64)?;
         }
-        for (name, value) in &self.parameters {
-            check(&format!("parameters.{name}"), *value, -1e6, 1e6)?;
+        for (name, p) in &self.parameters {
+            let field = format!("parameters.{name}");
+            check(&format!("{field}.min"), p.min, -1e6, p.max.min(1e6))?;
+            check(&format!("{field}.max"), p.max, p.min, 1e6)?;
+            check(&field, p.value, p.min, p.max)?;
         }
         for role in &self.characters {
             let start = &role.start;
@@ -67,9 +71,6 @@ impl Scenario {
                 check(&format!("angles.{joint}"), *angle, -10.0, 10.0)?;
             }
         }
-        for prop in &self.props {
-            validate_prop(source, prop, &check)?;
-        }
         let who = |field: &str, character: usize| {
             check(
                 &format!("{field}.character"),
@@ -78,12 +79,20 @@ impl Scenario {
                 self.characters.len() as f64 - 1.0,
             )
         };
-        let number = |number: &Number| {
-            self.number(number).map_err(|e| match number {
-                Number::Parameter(name, _) => e.at(&source.place(&format!("{name}\""))),
-                Number::Value(_) => e,
-            })
+        // A number within bounds, be it written out or a parameter's.
+        let within = |field: &str, number: &Number, low: f64, high: f64| match number {
+            Number::Value(value) => check(field, *value, low, high),
+            Number::Parameter(name, _) => self
+                .number(number)
+                .and_then(|value| check(field, value, low, high))
+                .map_err(|e| e.placed(&source.place(&format!("{name}\"")))),
         };
+        for prop in &self.props {
+            self.validate_prop(source, prop, &check, &within)?;
+        }
+        for (i, joint) in self.joints.iter().enumerate() {
+            self.validate_hinge(source, &format!("joints[{i}]"), joint, &within)?;
+        }
         for (i, event) in self.events.iter().enumerate() {
             let field = |name: &str| format!("events[{i}].{name}");
             match event {
@@ -94,13 +103,18 @@ impl Scenario {
                     character,
                     ..
                 } => {
-                    check(&field("at"), number(at)?, 0.0, LONGEST)?;
-                    check(&field("impulse"), number(impulse)?, -1e5, 1e5)?;
+                    within(&field("at"), at, 0.0, LONGEST)?;
+                    within(&field("impulse"), impulse, -1e5, 1e5)?;
                     check(&field("over"), *over, 1e-4, 60.0)?;
                     who(&format!("events[{i}]"), *character)?;
                 }
-                Happening::Command { at, character, .. } => {
-                    check(&field("at"), number(at)?, 0.0, LONGEST)?;
+                Happening::Command {
+                    at,
+                    text,
+                    character,
+                } => {
+                    self.filled(text).map_err(|e| e.at(&source.place(text)))?;
+                    within(&field("at"), at, 0.0, LONGEST)?;
                     who(&format!("events[{i}]"), *character)?;
                 }
             }
@@ -108,7 +122,38 @@ impl Scenario {
         for (i, expectation) in self.expect.iter().enumerate() {
             let field = format!("expect[{i}]");
             match expectation {
-                Expectation::Standing { character } => who(&field, *character)?,
+                Expectation::Standing { character } | Expectation::Balanced { character } => {
+                    who(&field, *character)?;
+                }
+                Expectation::Holds { at, character, .. } => {
+                    within(&format!("{field}.at"), at, 0.0, LONGEST)?;
+                    who(&field, *character)?;
+                }
+                Expectation::Reaches {
+                    before, character, ..
+                } => {
+                    within(&format!("{field}.before"), before, 0.0, LONGEST)?;
+                    who(&field, *character)?;
+                }
+                Expectation::Prop {
+                    name, min, max, at, ..
+                } => {
+                    let named = self.prop_index(name);
+                    named.map_err(|e| e.placed(&source.place(&format!("{name}\""))))?;
+                    within(&format!("{field}.at"), at, 0.0, LONGEST)?;
+                    within(
+                        &format!("{field}.min"),
+                        min,
+                        f64::NEG_INFINITY,
+                        f64::INFINITY,
+                    )?;
+                    within(
+                        &format!("{field}.max"),
+                        max,
+                        self.number(min)?,
+                        f64::INFINITY,
+                    )?;
+                }
                 Expectation::Active {
                     before, character, ..
                 }
@@ -122,42 +167,68 @@ impl Scenario {
         }
         Ok(())
     }
-}
 
-fn validate_prop(
-    source: &Source,
-    prop: &Prop,
-    check: &impl Fn(&str, f64, f64, f64) -> Result<()>,
-) -> Result<()> {
-    let finite = |field: &str, p: Point| {
-        if p.iter().all(|c| c.is_finite() && c.abs() <= 1e3) {
-            Ok(())
-        } else {
-            let field = format!("props.{}.{field}", prop.name);
-            Err(source.invalid(
-                &prop.name,
-                field,
-                format!("({}, {})", p[0], p[1]),
-                "finite, at most 1000 either way",
-            ))
+    fn validate_prop(
+        &self,
+        source: &Source,
+        entry: &PropEntry,
+        check: &impl Fn(&str, f64, f64, f64) -> Result<()>,
+        within: &impl Fn(&str, &Number, f64, f64) -> Result<()>,
+    ) -> Result<()> {
+        within("mass", &entry.mass, 0.0, 1e6)?;
+        within("friction", &entry.friction, 0.0, 10.0)?;
+        within("restitution", &entry.restitution, 0.0, 1.0)?;
+        within("angle", &entry.angle, -10.0, 10.0)?;
+        within("grip", &entry.grip, 0.0, 1e6)?;
+        let finite = |field: &str, p: Point| {
+            let field = format!("props.{}.{field}", entry.name);
+            finite(source, &entry.name, field, p)
+        };
+        for (field, point) in [("position", &entry.position), ("velocity", &entry.velocity)] {
+            let of = |e: Error| e.placed(&source.place(&entry.name));
+            finite(field, self.point(point).map_err(of)?)?;
         }
-    };
-    check("mass", prop.mass, 0.0, 1e6)?;
-    check("friction", prop.friction, 0.0, 10.0)?;
-    check("restitution", prop.restitution, 0.0, 1.0)?;
-    check("angle", prop.angle, -10.0, 10.0)?;
-    finite("position", prop.position)?;
-    finite("velocity", prop.velocity)?;
-    match prop.shape {
-        Shape::Capsule { radius, from, to } => {
-            check("radius", radius, 1e-3, 100.0)?;
-            finite("shape.from", from)?;
-            finite("shape.to", to)
-        }
-        Shape::Box { half, centre } => {
-            check("half", half[0], 1e-3, 100.0)?;
-            check("half", half[1], 1e-3, 100.0)?;
-            finite("shape.centre", centre)
+        match entry.shape {
+            Shape::Capsule { radius, from, to } => {
+                check("radius", radius, 1e-3, 100.0)?;
+                finite("shape.from", from)?;
+                finite("shape.to", to)
+            }
+            Shape::Box { half, centre } => {
+                check("half", half[0], 1e-3, 100.0)?;
+                check("half", half[1], 1e-3, 100.0)?;
+                finite("shape.centre", centre)
+            }
         }
     }
+
+    fn validate_hinge(
+        &self,
+        source: &Source,
+        field: &str,
+        entry: &HingeEntry,
+        within: &impl Fn(&str, &Number, f64, f64) -> Result<()>,
+    ) -> Result<()> {
+        let of = |e: Error| e.placed(&source.place(&format!("prop: \"{}\"", entry.prop)));
+        for (name, point) in [("at", Some(&entry.at)), ("to_at", entry.to_at.as_ref())] {
+            let Some(point) = point else { continue };
+            let (field, point) = (format!("{field}.{name}"), self.point(point).map_err(of)?);
+            finite(source, &entry.prop, field, point)?;
+        }
+        if let Some(breaks) = &entry.breaks {
+            within(&format!("{field}.breaks"), breaks, 1e-3, 1e9)?;
+        }
+        self.hinge(entry).map(drop).map_err(of)
+    }
+}
+
+fn finite(source: &Source, needle: &str, field: String, p: Point) -> Result<()> {
+    if p.iter().all(|c| c.is_finite() && c.abs() <= 1e3) {
+        return Ok(());
+    }
+    let (found, accepted) = (
+        format!("({}, {})", p[0], p[1]),
+        "finite, at most 1000 either way",
+    );
+    Err(source.invalid(needle, field, found, accepted))
 }

@@ -67,11 +67,12 @@ impl Timed {
                 character,
             } => {
                 // A trial on a clone: commands that nobody answers to are found before the run.
-                mind.clone().command(text)?;
+                let text = scenario.filled(text)?;
+                mind.clone().command(&text)?;
                 Ok(Self {
                     time: scenario.number(at)?,
                     character: *character,
-                    deed: Deed::Command(text.clone()),
+                    deed: Deed::Command(text),
                 })
             }
         }

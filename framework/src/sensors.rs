@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::kinematics::Kinematics;
 use crate::model::{Model, Point};
+pub use crate::sensed_prop::SensedProp;
 use crate::state::{State, wrapped};
 
 /// How the character holds itself: from what supports it (a ball against the chest does not) and
@@ -123,6 +124,8 @@ pub struct Sensors {
     pub capture_point: f64,
     /// See [`Posture`].
     pub posture: Posture,
+    /// The world's props, in its order.
+    pub props: Vec<SensedProp>,
 }
 
 impl Sensors {
@@ -147,6 +150,7 @@ impl Sensors {
             ground: 0.0,
             capture_point: 0.0,
             posture: Posture::Airborne,
+            props: Vec::new(),
             state,
             kinematics,
         };

@@ -18,6 +18,7 @@ use crate::sensors::Sensors;
 pub use crate::start::{put_on_ground, start_state};
 use crate::supervisor::Supervisor;
 use crate::trajectory::{Cast, Digest, Header, Trajectory, push_character};
+use crate::watch::Watch;
 use crate::world::World;
 
 /// One step of the whole loop for one character: sense, think, actuate. Returns what was sensed.
@@ -31,6 +32,7 @@ pub fn tick<'a>(
     let now = world.sense(character);
     mind.act(now, torques);
     world.actuate(character, torques);
+    world.grip(character, mind.grips());
     &world.characters()[character].sensors
 }
 
@@ -44,6 +46,7 @@ pub struct Simulation {
     digest: Digest,
     row: Vec<f32>,
     recording: Option<Trajectory>,
+    watches: Vec<Watch>,
 }
 
 impl Simulation {
@@ -83,7 +86,10 @@ impl Simulation {
             actors.push(Actor::new(mind, &model));
         }
         for prop in &scenario.props {
-            world.add_prop(prop);
+            world.add_prop(&scenario.prop(prop)?);
+        }
+        for hinge in &scenario.joints {
+            world.add_hinge(&scenario.hinge(hinge)?);
         }
         world.detect_contacts();
         for character in 0..actors.len() {
@@ -97,7 +103,13 @@ impl Simulation {
             digest: Digest::default(),
             row: Vec::new(),
             recording: None,
+            watches: Vec::new(),
         };
+        for (i, expectation) in scenario.expect.iter().enumerate() {
+            let watch = Watch::new(expectation, scenario, &simulation.world)
+                .map_err(|e| e.at(&format!("{}: expect[{i}]", scenario.name)))?;
+            simulation.watches.extend(watch);
+        }
         for event in &scenario.events {
             simulation.schedule(scenario, event)?;
         }
@@ -293,6 +305,9 @@ impl Simulation {
         if let Some(recording) = &mut self.recording {
             recording.push_row(&self.row);
         }
+        for watch in &mut self.watches {
+            watch.observe(&self.world);
+        }
         self.world.step();
     }
 
@@ -319,6 +334,17 @@ impl Simulation {
     #[must_use]
     pub fn outcome(&self, character: usize) -> Outcome {
         self.actors[character].outcome(self.sensors(character))
+    }
+
+    /// Whether the run has met all of these expectations of its scenario.
+    #[must_use]
+    pub fn met(&self, expectations: &[Expectation]) -> bool {
+        self.disappointment(expectations).is_none()
+    }
+
+    /// What this run has shown of an expectation of its scenario.
+    pub(crate) fn watched(&self, expectation: &Expectation) -> Option<&Watch> {
+        self.watches.iter().find(|w| w.expectation == *expectation)
     }
 
     /// The first expectation of a scenario that the run did not meet, in words.

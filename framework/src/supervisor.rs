@@ -262,6 +262,11 @@ impl Controller for Supervisor {
             .and_then(|a| self.pool[a.member].controller.reference_com())
     }
 
+    fn grips(&self) -> bool {
+        self.active
+            .is_some_and(|a| self.pool[a.member].controller.grips())
+    }
+
     fn take_decisions(&mut self) -> Vec<Decision> {
         let mut all = std::mem::take(&mut self.decisions);
         for m in &mut self.pool {

@@ -22,7 +22,7 @@ use crate::model::Model;
 use crate::trajectory::{Cast, Header, Trajectory};
 
 const MAGIC: &[u8; 8] = b"APLOMB-T";
-const VERSION: u16 = 2;
+const VERSION: u16 = 3;
 const LARGEST_FILE: u64 = 1 << 30;
 const LARGEST_CONTENT: u64 = 4 << 30;
 

@@ -2,86 +2,21 @@
 //!
 //! A clone continues bit for bit like its original.
 
+mod props;
+
 use std::sync::Arc;
 
 use rapier2d::prelude::*;
-use serde::{Deserialize, Serialize};
 
-use crate::body::{Body, outline, vector};
-use crate::model::{Model, Point, Shape};
+use crate::body::{Body, vector};
+use crate::fastening::Fastening;
+use crate::grips::Grips;
+use crate::model::{Model, Point};
+use crate::prop::Placed;
+pub use crate::prop::{Hinge, Prop, PropMotion};
 use crate::sensors::Sensors;
+pub use crate::settings::{Settings, integration_parameters};
 use crate::state::State;
-
-/// Physical settings of a world, the same for all controllers.
-///
-/// The defaults are chosen by measurement: `ARCHITECTURE.md`, "Contact settings".
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Settings {
-    /// Step, s.
-    pub dt: f64,
-    /// m/s², downwards positive.
-    pub gravity: f64,
-    /// Friction coefficient of the ground.
-    pub friction: f64,
-    /// Natural frequency of contacts, Hz.
-    pub contact_frequency: f64,
-    /// Damping ratio of contacts.
-    pub contact_damping: f64,
-    /// Solver iterations a step.
-    pub iterations: usize,
-    /// Largest torques of all muscles, relative to the character's. Controllers plan with the
-    /// character's own.
-    pub torque: f64,
-    /// Mass and inertia of all links, relative to the character's. Momentum control plans with the
-    /// character's own.
-    pub mass: f64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            dt: 1e-3,
-            gravity: 9.81,
-            friction: 1.0,
-            contact_frequency: 240.0,
-            contact_damping: 10.0,
-            iterations: 4,
-            torque: 1.0,
-            mass: 1.0,
-        }
-    }
-}
-
-/// A thing in the world that is no character.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Prop {
-    /// For messages and drawings.
-    pub name: String,
-    /// Its outline about its own frame.
-    pub shape: Shape,
-    /// kg; 0 is fixed to the world.
-    pub mass: f64,
-    /// Where its frame is at first, m.
-    pub position: Point,
-    /// rad
-    #[serde(default)]
-    pub angle: f64,
-    /// m/s
-    #[serde(default)]
-    pub velocity: Point,
-    /// Friction coefficient.
-    #[serde(default = "one")]
-    pub friction: f64,
-    /// Restitution coefficient.
-    #[serde(default)]
-    pub restitution: f64,
-}
-
-fn one() -> f64 {
-    1.0
-}
 
 /// A character in the world with what it senses.
 #[derive(Debug, Clone)]
@@ -104,7 +39,13 @@ pub struct World {
     settings: Settings,
     steps: u64,
     characters: Vec<Character>,
-    props: Vec<(Prop, RigidBodyHandle)>,
+    /// One a character.
+    grips: Vec<Grips>,
+    props: Vec<Placed>,
+    /// Those that have broken are gone.
+    hinges: Vec<Option<Fastening>>,
+    /// What props are hinged to that hang in the world, once there are any.
+    anchor: Option<RigidBodyHandle>,
     pushes: Vec<Push>,
     parameters: IntegrationParameters,
     pipeline: PhysicsPipeline,
@@ -136,7 +77,10 @@ impl Clone for World {
             settings: self.settings,
             steps: self.steps,
             characters: self.characters.clone(),
+            grips: self.grips.clone(),
             props: self.props.clone(),
+            hinges: self.hinges.clone(),
+            anchor: self.anchor,
             pushes: self.pushes.clone(),
             parameters: self.parameters,
             pipeline: PhysicsPipeline::new(), // a workspace, without memory between steps
@@ -153,23 +97,6 @@ impl Clone for World {
     }
 }
 
-/// The engine's parameters for our settings: stiff contacts, recomputed every step.
-#[must_use]
-pub fn integration_parameters(settings: &Settings) -> IntegrationParameters {
-    let softness = SpringCoefficients::new(
-        settings.contact_frequency as f32,
-        settings.contact_damping as f32,
-    );
-    IntegrationParameters {
-        dt: settings.dt as f32,
-        contact_softness: softness,
-        static_contact_softness: softness,
-        num_solver_iterations: settings.iterations,
-        contact_recycling: false,
-        ..IntegrationParameters::default()
-    }
-}
-
 impl World {
     /// Level ground and nothing on it.
     #[must_use]
@@ -183,7 +110,10 @@ impl World {
             settings,
             steps: 0,
             characters: Vec::new(),
+            grips: Vec::new(),
             props: Vec::new(),
+            hinges: Vec::new(),
+            anchor: None,
             pushes: Vec::new(),
             parameters: integration_parameters(&settings),
             pipeline: PhysicsPipeline::new(),
@@ -226,49 +156,14 @@ impl World {
         );
         let sensors = Sensors::new(&varied, self.settings.gravity);
         self.characters.push(Character { body, sensors });
+        self.grips.push(Grips::new(model));
         self.characters.len() - 1
-    }
-
-    /// Adds a prop; returns its place in [`Self::prop_poses`].
-    pub fn add_prop(&mut self, prop: &Prop) -> usize {
-        let builder = if prop.mass > 0.0 {
-            RigidBodyBuilder::dynamic()
-        } else {
-            RigidBodyBuilder::fixed()
-        };
-        let rigid = builder
-            .pose(Pose::new(vector(prop.position), prop.angle as f32))
-            .linvel(vector(prop.velocity))
-            .can_sleep(false);
-        let handle = self.bodies.insert(rigid);
-        let collider = outline(&prop.shape)
-            .mass(prop.mass.max(0.0) as f32)
-            .friction(prop.friction as f32)
-            .restitution(prop.restitution as f32);
-        self.colliders
-            .insert_with_parent(collider, handle, &mut self.bodies);
-        self.props.push((prop.clone(), handle));
-        self.props.len() - 1
     }
 
     /// Characters with what they sensed last.
     #[must_use]
     pub fn characters(&self) -> &[Character] {
         &self.characters
-    }
-
-    /// The props.
-    pub fn props(&self) -> impl Iterator<Item = &Prop> {
-        self.props.iter().map(|(p, _)| p)
-    }
-
-    /// (x, y, angle) of every prop, m and rad, in single precision as in the engine.
-    pub fn prop_poses(&self) -> impl Iterator<Item = [f32; 3]> {
-        self.props.iter().map(|(_, handle)| {
-            let body = &self.bodies[*handle];
-            let at = body.translation();
-            [at.x, at.y, body.rotation().angle()]
-        })
     }
 
     /// Pushes a link at its centre of mass with an impulse (N·s, world frame) spread evenly over
@@ -314,7 +209,8 @@ impl World {
             self.settings.dt,
             sensors,
         );
-        sensors
+        self.sense_props(character);
+        &self.characters[character].sensors
     }
 
     /// Sets a character's joint torques for the next step, N·m in the model's order.
@@ -326,6 +222,7 @@ impl World {
 
     /// One step of `dt`.
     pub fn step(&mut self) {
+        self.take_hold();
         for push in &self.pushes {
             self.bodies[push.handle].add_force(push.force, false);
         }
@@ -350,5 +247,6 @@ impl World {
         }
         self.pushes.retain(|p| p.steps > 0);
         self.steps += 1;
+        self.give_way();
     }
 }

@@ -92,12 +92,8 @@ impl ControllersArgs {
 }
 
 fn list_features(out: &mut dyn Write, json: bool) -> Result<Verdict> {
-    let joints = [
-        ("angle.JOINT", "rad", "angle of a joint"),
-        ("velocity.JOINT", "rad/s", "angular velocity of a joint"),
-    ];
     let words: Vec<Word> = Feature::vocabulary()
-        .chain(joints)
+        .chain(Feature::FAMILIES)
         .map(|(name, unit, meaning)| Word {
             name,
             unit,
@@ -114,7 +110,7 @@ fn list_features(out: &mut dyn Write, json: bool) -> Result<Verdict> {
             meaning,
         } in words
         {
-            writeln!(out, "{name:17} {unit:8} {meaning}")?;
+            writeln!(out, "{name:18} {unit:8} {meaning}")?;
         }
     }
     Ok(Verdict::Done)

@@ -311,6 +311,6 @@ fn the_vocabulary_of_conditions_is_listed() {
         .assert()
         .success()
         .stdout(predicate::str::contains(
-            "com_height        1        height",
+            "com_height         1        height",
         ));
 }

@@ -7,6 +7,7 @@ mod tree;
 mod contact;
 mod limits;
 mod motion;
+mod props;
 
 use std::sync::Arc;
 
@@ -87,5 +88,6 @@ fn ball(mass: f64, position: [f64; 2], velocity: [f64; 2]) -> Prop {
         velocity,
         friction: 0.5,
         restitution: 0.0,
+        grip: 0.0,
     }
 }
