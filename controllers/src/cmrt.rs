@@ -363,17 +363,6 @@ impl CmrtController {
             None => self.gains.clone(),
         });
     }
-
-    /// Whether the motion has its hands closed now.
-    #[must_use]
-    pub fn hands_closed(&self) -> bool {
-        let mut all = self.motions.iter().zip(&self.timelines);
-        all.any(|(motion, line)| {
-            let within =
-                |[from, to]: [f64; 2]| (line.time(from)..line.time(to)).contains(&self.elapsed);
-            motion.grips.is_some_and(within)
-        })
-    }
 }
 
 /// A foot that carries nothing and goes where its joints' targets take it.
@@ -430,6 +419,15 @@ impl Controller for CmrtController {
         answer.check(command)?;
         self.command = Some(command.clone());
         Ok(true)
+    }
+
+    fn grips(&self) -> bool {
+        let mut all = self.motions.iter().zip(&self.timelines);
+        all.any(|(motion, line)| {
+            let within =
+                |[from, to]: [f64; 2]| (line.time(from)..line.time(to)).contains(&self.elapsed);
+            motion.grips.is_some_and(within)
+        })
     }
 
     fn reference_com(&self) -> Option<f64> {

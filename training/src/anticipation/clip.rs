@@ -87,7 +87,8 @@ impl Clip {
     /// The scenario's parameters as they are set.
     #[must_use]
     pub fn parameters(&self) -> BTreeMap<String, f64> {
-        self.scenario.parameters.clone()
+        let all = self.scenario.parameters.iter();
+        all.map(|(name, p)| (name.clone(), p.value)).collect()
     }
 
     /// s of the first motion.
@@ -155,7 +156,7 @@ fn commanded(scenario: &Scenario) -> Result<(f64, String)> {
             character: 0,
         } = event
         {
-            return Ok((scenario.number(at)?, text.clone()));
+            return Ok((scenario.number(at)?, scenario.filled(text)?));
         }
     }
     let accepted = "a command to the first character, which starts the clip";
