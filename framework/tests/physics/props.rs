@@ -206,7 +206,12 @@ fn tip(world: &mut World) -> [f64; 2] {
 fn a_ball_that_is_grasped_hangs_and_falls_when_the_hands_open() {
     let mut world = under_the_hands(2.0, 600.0);
     world.grip(0, true);
-    run(&mut world, 1500, reaching);
+    run(&mut world, 500, reaching);
+    let mut load = 0.0;
+    run(&mut world, 1000, |now, torques| {
+        reaching(now, torques);
+        load += now.ground_reaction_force[1] / G / 1000.0;
+    });
     let now = world.sense(0).clone();
     let ball = &now.props[0];
     assert!(ball.held && world.holds(0, 0));
@@ -217,8 +222,8 @@ fn a_ball_that_is_grasped_hangs_and_falls_when_the_hands_open() {
         (hangs[0] - x).abs() < 0.02 && (y - hangs[1] - RADIUS - 0.035).abs() < 0.01,
         "({x}, {y}) {hangs:?}"
     );
-    let carried = now.ground_reaction_force[1] / G - now.model.total_mass();
-    assert!((carried - 2.0).abs() < 0.2, "{carried} kg");
+    let carried = load - now.model.total_mass();
+    assert!((carried - 2.0).abs() < 0.25, "{carried} kg");
     assert!((ball.height - hangs[1]).abs() < 5e-3);
     assert!((ball.ahead + now.state.q[0] - hangs[0]).abs() < 1e-9);
     world.grip(0, false);
