@@ -67,7 +67,7 @@ impl ClipsArgs {
         };
         let threads = self.jobs.threads()?;
         let row = |name: &String| {
-            let clip = load(name, &self.set)?;
+            let clip = load(name, &self.set, 0)?;
             threads.install(|| Row::new(&clip, self.seed))
         };
         let rows = names.iter().map(row).collect::<Result<Vec<Row>>>()?;
@@ -81,14 +81,18 @@ impl ClipsArgs {
     }
 }
 
-/// The clip of this name with parameters set.
-pub(super) fn load(name: &str, set: &[Setting]) -> Result<Clip> {
+/// The clip of this name with parameters set, and which of its motions is optimised.
+pub(super) fn load(name: &str, set: &[Setting], motion: usize) -> Result<Clip> {
     let mut scenario = aplomb::scenarios::load_clip(name)?;
     for Setting { key, value } in set {
         let option = || format!("--set {key}={value}");
         scenario.set(key, *value).with_context(option)?;
     }
-    Ok(Clip::new(scenario, &aplomb::controllers::registry())?)
+    Ok(Clip::new(
+        scenario,
+        motion,
+        &aplomb::controllers::registry(),
+    )?)
 }
 
 impl Row {

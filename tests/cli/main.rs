@@ -5,6 +5,7 @@
 
 mod bad_files;
 mod bad_usage;
+mod cmrt;
 mod compare;
 mod help;
 mod output;

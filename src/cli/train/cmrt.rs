@@ -70,6 +70,11 @@ pub(super) struct SearchArgs {
     /// Sets a parameter of the clip; repeatable
     #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
     pub(super) set: Vec<Setting>,
+    /// Place of the motion that is optimised, where the clip has several in a row; those after it do
+    /// not count
+    #[arg(long, value_name = "N", default_value = "0",
+          value_parser = whole(0, 15), allow_negative_numbers = true)]
+    pub(super) motion: u64,
     /// Number of knots and of control points
     #[arg(long, value_name = "4|8", default_value = "4",
           value_parser = whole(1, 8), allow_negative_numbers = true)]
@@ -82,6 +87,10 @@ pub(super) struct SearchArgs {
     #[arg(long, value_name = "N", default_value = "700",
           value_parser = whole(1, 1_000_000), allow_negative_numbers = true)]
     pub(super) least: u64,
+    /// Number of slightly different starts that the objective is averaged over, beside the clip's own
+    #[arg(long, value_name = "N", default_value = "1",
+          value_parser = whole(0, 100), allow_negative_numbers = true)]
+    pub(super) starts: u64,
     /// Ends the search when the objective is below this
     #[arg(long, value_name = "X", default_value = "0",
           value_parser = number(0.0, 1e6, ""), allow_negative_numbers = true)]
@@ -102,6 +111,8 @@ struct Report {
     seed: u64,
     knots: usize,
     dimensions: usize,
+    /// Perturbed starts that the objective was averaged over.
+    starts: usize,
     evaluations: usize,
     wall_s: f64,
     cpu_s: f64,
@@ -153,6 +164,7 @@ impl CmrtArgs {
             seed,
             knots: found.cmrt.times.len(),
             dimensions: plan.encoding.dimensions(),
+            starts: plan.starts,
             evaluations: found.evaluations,
             wall_s: begun.elapsed().as_secs_f64(),
             cpu_s: cpu.elapsed().as_secs_f64(),
@@ -191,7 +203,7 @@ impl SearchArgs {
     /// The same with further parameters.
     pub(super) fn clip_with(&self, name: &str, further: &[Setting]) -> Result<Clip> {
         let all: Vec<Setting> = self.set.iter().chain(further).cloned().collect();
-        clips::load(name, &all)
+        clips::load(name, &all, self.motion as usize)
     }
 
     /// All knots and control points.
@@ -206,6 +218,7 @@ impl SearchArgs {
             evaluations: self.evaluations as usize,
             least: self.least as usize,
             threshold: self.threshold,
+            starts: self.starts as usize,
             seed: self.seed,
             start: None,
         }

@@ -29,6 +29,8 @@ pub struct Clip {
     pub skill: Skill,
     /// s at which it is commanded.
     pub at: f64,
+    /// Place of the motion that is optimised; the others keep the trajectories of their file.
+    motion: usize,
     spec: CmrtSpec,
     /// As commanded, with its own trajectories.
     controller: CmrtController,
@@ -37,11 +39,11 @@ pub struct Clip {
 }
 
 impl Clip {
-    /// The clip of a scenario with its parameters set.
+    /// The clip of a scenario with its parameters set, and which of its motions is optimised.
     ///
     /// # Errors
-    /// No command, or one to a controller of another kind; an invalid repertoire or controller.
-    pub fn new(scenario: Scenario, registry: &Registry) -> Result<Self> {
+    /// No such motion; no command, or one to a controller of another kind; an invalid repertoire or controller.
+    pub fn new(scenario: Scenario, motion: usize, registry: &Registry) -> Result<Self> {
         let role = &scenario.characters[0];
         let model = Model::load(&role.character)?;
         let repertoire = role.repertoire.as_deref().unwrap_or(&model.name);
@@ -65,13 +67,18 @@ impl Clip {
             .clone()
             .controller(skill.contract.clone(), &model)?
             .commanded(&command)?;
-        let named = spec.motions.first().and_then(|m| m.parameter.as_ref());
+        let Some(optimised) = spec.motions.get(motion) else {
+            let accepted = format!("0 to {}", spec.motions.len().saturating_sub(1));
+            return Err(Error::invalid(skill.name(), "motion", motion, accepted));
+        };
+        let named = optimised.parameter.as_ref();
         let value = named.map_or(0.0, |n| skill.contract.parameter(Some(&command), n, 0.0));
         Ok(Self {
             skill: skill.clone(),
             scenario,
             model,
             at,
+            motion,
             spec,
             controller,
             value,
@@ -91,17 +98,37 @@ impl Clip {
         all.map(|(name, p)| (name.clone(), p.value)).collect()
     }
 
-    /// s of the first motion.
+    /// s of the motion that is optimised.
     #[must_use]
     pub fn length(&self) -> f64 {
-        self.spec.motions[0].length
+        self.spec.motions[self.motion].length
     }
 
-    /// s of preparation, task and decay of the first motion, as commanded.
+    /// When the motion begins and ends, s.
+    #[must_use]
+    pub fn window(&self) -> [f64; 2] {
+        let line = self.controller.timeline(self.motion);
+        [0.0, 3.0].map(|phase| self.at + line.map_or(0.0, |line| line.time(phase)))
+    }
+
+    /// When its task begins, s.
+    #[must_use]
+    pub fn task(&self) -> f64 {
+        let line = self.controller.timeline(self.motion);
+        self.at + line.map_or(0.0, |line| line.time(1.0))
+    }
+
+    /// Whether another motion goes on after it.
+    #[must_use]
+    pub fn goes_on(&self) -> bool {
+        self.at + self.controller.length() > self.window()[1] + 1e-9
+    }
+
+    /// s of preparation, task and decay of the motion that is optimised, as commanded.
     #[must_use]
     pub fn phases(&self) -> [f64; 3] {
         let time = |phase: f64| {
-            let line = self.controller.timeline(0);
+            let line = self.controller.timeline(self.motion);
             line.map_or(0.0, |line| line.time(phase))
         };
         let [t0, t1, t2, t3] = [0.0, 1.0, 2.0, 3.0].map(time);
@@ -117,15 +144,15 @@ impl Clip {
     /// The trajectory that its file has for this command, if any.
     #[must_use]
     pub fn shipped(&self) -> Option<Cmrt> {
-        aplomb_controllers::cmrt::interpolated(&self.spec.motions[0].cmrts, self.value)
+        aplomb_controllers::cmrt::interpolated(&self.spec.motions[self.motion].cmrts, self.value)
     }
 
-    /// The repertoire with the controller's first motion along another trajectory, or none.
+    /// The repertoire with the motion along another trajectory, or none.
     ///
     /// # Errors
     /// What makes a repertoire invalid.
     pub fn mind(&self, cmrt: Option<Cmrt>) -> Result<Supervisor> {
-        let controller = self.controller.clone().with_cmrt(0, cmrt);
+        let controller = self.controller.clone().with_cmrt(self.motion, cmrt);
         self.skill.mind.with_replaced(controller.clone_box())
     }
 
@@ -143,7 +170,7 @@ impl Clip {
 
     fn with(&self, cmrt: &Cmrt) -> CmrtSpec {
         let mut spec = self.spec.clone();
-        let family = &mut spec.motions[0].cmrts;
+        let family = &mut spec.motions[self.motion].cmrts;
         let value = self.value;
         family.retain(|c| c.value != value && c.times.len() == cmrt.times.len());
         let place = family.partition_point(|c| c.value < value);

@@ -91,33 +91,53 @@ pub fn evaluate(clip: &Clip, cmrt: Option<&Cmrt>) -> Result<Evaluation> {
     rollout(clip, &clip.scenario, mind, None)
 }
 
+/// The objective, averaged over the clip's own start and so many perturbed ones: what is found on the
+/// edge of falling is then found out.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn averaged(clip: &Clip, cmrt: Option<&Cmrt>, starts: usize, seed: u64) -> Result<Evaluation> {
+    let mind = clip.mind(cmrt.cloned())?;
+    let mut own = rollout(clip, &clip.scenario, mind.clone(), None)?;
+    let mut sum = own.objective;
+    for i in 0..starts {
+        let further = perturbed(clip, mind.clone(), seed, i)?;
+        sum += further.objective;
+        own.succeeds &= further.succeeds;
+    }
+    own.objective = sum / (starts + 1) as f64;
+    Ok(own)
+}
+
 /// From how many of [`PERTURBED`] slightly different starts the clip succeeds.
 ///
 /// # Errors
 /// As [`evaluate`].
 pub fn successes(clip: &Clip, cmrt: Option<&Cmrt>, seed: u64) -> Result<usize> {
     let mind = clip.mind(cmrt.cloned())?;
-    let one = |i: usize| {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        random.set_stream(i as u64 + 1);
-        let mut scenario = clip.scenario.clone();
-        perturb(&mut scenario, &clip.model, &mut random)?;
-        let velocity = random.gen_range(-VELOCITY..=VELOCITY);
-        rollout(clip, &scenario, mind.clone(), Some(velocity)).map(|e| e.succeeds)
-    };
+    let one = |i: usize| perturbed(clip, mind.clone(), seed, i).map(|e| e.succeeds);
     let all: Result<Vec<bool>> = (0..PERTURBED).into_par_iter().map(one).collect();
     Ok(all?.into_iter().filter(|s| *s).count())
 }
 
+/// A rollout from the perturbed start of this number.
+fn perturbed(clip: &Clip, mind: Supervisor, seed: u64, number: usize) -> Result<Evaluation> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(number as u64 + 1);
+    let mut scenario = clip.scenario.clone();
+    perturb(&mut scenario, &clip.model, &mut random);
+    let velocity = random.gen_range(-VELOCITY..=VELOCITY);
+    rollout(clip, &scenario, mind, Some(velocity))
+}
+
 /// Offsets of all joints of the first character's start.
-fn perturb(scenario: &mut Scenario, model: &Model, random: &mut ChaCha8Rng) -> Result<()> {
+fn perturb(scenario: &mut Scenario, model: &Model, random: &mut ChaCha8Rng) {
     let start = &mut scenario.characters[0].start;
     for joint in model.joints() {
         let angle = start.angles.entry(joint.name.clone()).or_insert(0.0);
         let offset = random.gen_range(-OFFSET..=OFFSET);
         *angle = (*angle + offset).clamp(joint.range[0], joint.range[1]);
     }
-    Ok(())
 }
 
 /// What a rollout has summed up so far.
@@ -144,25 +164,32 @@ fn rollout(
     }
     let name = &clip.contract().name;
     let controller = clip.controller();
-    let end = clip.at + controller.length();
-    let task = controller
-        .timeline(0)
-        .map_or(clip.at, |t| clip.at + t.time(1.0));
+    let ([begin, end], task) = (clip.window(), clip.task());
+    // What follows a motion that is not the last does not count.
+    let last = if clip.goes_on() {
+        end
+    } else {
+        scenario.duration
+    };
     let dt = scenario.settings.dt;
     let mut pose = vec![0.0; clip.model.joint_count()];
     let mut sums = Sums::default();
     let mut fell = None;
-    while run.time() + 0.5 * dt < scenario.duration {
+    while run.time() + 0.5 * dt < last {
         run.step();
         let now = run.sensors(0);
         let since = now.time - clip.at;
         if since < 0.0 || now.time > end {
             continue;
         }
+        // Also before the motion: what is lost then cannot be won.
         let active = run.actors()[0].mind.active();
         if now.is_down() || (active != Some(name) && now.time < end - 2.0 * dt) {
             fell = Some(now.time);
             break;
+        }
+        if now.time < begin {
+            continue;
         }
         // Without a foot on the ground there is no centre of pressure: left out, as in the paper.
         if let (Some(p), Some(s)) = (now.cop, now.support_centre()) {
@@ -176,18 +203,22 @@ fn rollout(
             sums.tracked += 1;
         }
     }
-    let unmet = scenario
-        .expect
+    let expected = if clip.goes_on() {
+        &[]
+    } else {
+        scenario.expect.as_slice()
+    };
+    let unmet = expected
         .iter()
         .filter(|e| run.disappointment(std::slice::from_ref(e)).is_some())
         .count();
     let tracking = (sums.tracking / sums.tracked.max(1) as f64).sqrt();
     // The paper's norm is over steps of 1 ms.
     let cop_norm = (sums.cop * dt / 1e-3).sqrt();
-    let missed = MISSED * unmet as f64 / scenario.expect.len().max(1) as f64;
+    let missed = MISSED * unmet as f64 / expected.len().max(1) as f64;
     let objective = match fell {
         // What has not been lived to see is no gain.
-        Some(t) => FALL * (2.0 - ((t - clip.at) / (end - clip.at)).clamp(0.0, 1.0)) + MISSED,
+        Some(t) => FALL * (2.0 - ((t - begin) / (end - begin)).clamp(0.0, 1.0)) + MISSED,
         None => cop_norm + TRACKING * tracking + missed,
     };
     Ok(Evaluation {

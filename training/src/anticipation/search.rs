@@ -13,7 +13,7 @@ use xxhash_rust::xxh3::xxh3_64;
 
 use super::clip::Clip;
 use super::encoding::Encoding;
-use super::objective::{ENOUGH, evaluate, successes};
+use super::objective::{ENOUGH, averaged, successes};
 use crate::cma_es::{Best, Search, minimise, population};
 use crate::exercise::Score;
 use crate::journal::Journal;
@@ -44,6 +44,8 @@ pub struct Plan {
     pub least: usize,
     /// Ends when the objective is below this.
     pub threshold: f64,
+    /// Perturbed starts that the objective is averaged over, beside the clip's own.
+    pub starts: usize,
     /// Fixes the candidates.
     pub seed: u64,
     /// Where to begin; the flat trajectory or the basis' mean if none.
@@ -97,10 +99,12 @@ pub fn search(
     let known = plan.start.as_ref().and_then(|c| plan.encoding.point(c));
     let start = known.unwrap_or_else(middle);
     let first = plan.encoding.trajectory(&start);
-    evaluate(clip, Some(&first))?;
+    let seed = plan.seed.wrapping_add(OTHER_STARTS);
+    let objective = |cmrt: &Cmrt| averaged(clip, Some(cmrt), plan.starts, seed);
+    objective(&first)?;
     let journal = open(clip, plan, keep, &first)?;
     let measure = |point: &[f64]| {
-        let evaluation = evaluate(clip, Some(&plan.encoding.trajectory(point)));
+        let evaluation = objective(&plan.encoding.trajectory(point));
         Score {
             cost: evaluation.as_ref().map_or(INVALID, |e| e.objective),
             reached: usize::from(evaluation.is_ok_and(|e| e.succeeds)),
@@ -141,7 +145,6 @@ pub fn search(
     written?;
     // A trajectory at the edge of falling may have the least objective of all.
     for (objective, cmrt) in improvements.into_iter().rev().take(TRIED) {
-        let seed = plan.seed.wrapping_add(OTHER_STARTS);
         if successes(clip, Some(&cmrt), seed)? >= ENOUGH {
             (found.objective, found.cmrt) = (objective, cmrt);
             break;
@@ -157,6 +160,7 @@ fn open(clip: &Clip, plan: &Plan, keep: Keep<'_>, first: &Cmrt) -> Result<Journa
         ("clip", hashed(format!("{:?}", clip.scenario))),
         ("surroundings", format!("{:016x}", clip.skill.surroundings)),
         ("encoding", hashed(format!("{:?}", plan.encoding))),
+        ("starts", plan.starts.to_string()),
         ("seed", plan.seed.to_string()),
     ];
     let line = clip.line(first);
