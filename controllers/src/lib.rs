@@ -74,6 +74,7 @@ const FILES: &[(&str, &str)] = shipped![
     "poses/rise_sitting.ron",
     "poses/rise_supine.ron",
     "poses/roll.ron",
+    "poses/roll_backward.ron",
     "repertoires/humanoid.ron",
     "repertoires/learned.ron",
     "repertoires/limp.ron",

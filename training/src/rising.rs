@@ -93,6 +93,7 @@ pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Go
     let begun = run.time();
     let dt = run.world().settings().dt;
     let mut impact = Impact::new(dt);
+    let barred = barred(&contract.expected);
     let (mut steady, mut kept) = (0.0, 0.0);
     let mut all = Rising {
         reached: false,
@@ -112,7 +113,7 @@ pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Go
         all.trunk_force = all.trunk_force.max(impact.trunk);
         all.motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
         steps += 1.0;
-        all.nearest = f64::max(all.nearest, nearness(now, goal));
+        all.nearest = f64::max(all.nearest, nearness(now, goal, barred));
         let name = run.actors()[0].mind.active().unwrap_or_default();
         match goal {
             Goal::Stand => {
@@ -141,8 +142,30 @@ pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Go
     all
 }
 
+/// The upper end of the pitches that the trunk must not pass through, if the expected performance has
+/// any: they tell which way round to turn.
+fn barred(expected: &Condition) -> Option<f64> {
+    match expected {
+        Condition::All(all) => all.iter().find_map(barred),
+        Condition::Not(inner) => match &**inner {
+            Condition::Within { feature, max, .. } if feature.to_string() == "trunk_pitch" => {
+                Some(*max)
+            }
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// How much of half a turn is done to a pitch, on the way that does not lead through the barred ones.
+fn turned_round(pitch: f64, aim: f64, barred: f64) -> f64 {
+    let past = |x: f64| (x - barred).rem_euclid(std::f64::consts::TAU);
+    let left = (past(aim) - past(pitch)).abs();
+    (1.0 - left / std::f64::consts::PI).max(0.0)
+}
+
 /// How near a situation is to the goal, 0 to 1.
-fn nearness(now: &Sensors, goal: Goal) -> f64 {
+fn nearness(now: &Sensors, goal: Goal, barred: Option<f64>) -> f64 {
     match goal {
         Goal::Stand => {
             let height = now.com_height() / now.model.standing_com()[1];
@@ -162,7 +185,11 @@ fn nearness(now: &Sensors, goal: Goal) -> f64 {
                 Posture::Prone => -std::f64::consts::FRAC_PI_2,
                 _ => 0.0,
             };
-            let turned = 0.5 * (1.0 + (now.trunk_pitch() - aim).cos());
+            let pitch = now.trunk_pitch();
+            let turned = match barred {
+                Some(barred) => turned_round(pitch, aim, barred),
+                None => 0.5 * (1.0 + (pitch - aim).cos()),
+            };
             let there = f64::from(u8::from(now.posture == posture));
             0.8 * turned + 0.2 * there
         }
@@ -194,6 +221,22 @@ mod tests {
         );
         let prone = "All([Within(feature: \"com_speed\", max: 1), Posture([prone, supine])])";
         assert_eq!(goal(prone), Goal::Reach(Posture::Prone));
+    }
+
+    #[test]
+    fn what_is_barred_tells_which_way_to_turn() {
+        use std::f64::consts::{FRAC_PI_2, PI};
+        let text =
+            r#"All([Posture([prone]), Not(Within(feature: "trunk_pitch", min: -1.2, max: 0.3))])"#;
+        let barred = barred(&ron::from_str(text).unwrap()).unwrap();
+        assert_eq!(barred, 0.3);
+        // From the back over the shoulders to the belly.
+        let done = |pitch| turned_round(pitch, -FRAC_PI_2, barred);
+        assert!(done(FRAC_PI_2) < 1e-9);
+        assert!(done(0.5) < 1e-9, "sitting up leads away");
+        assert!((done(PI - 1e-6) - 0.5).abs() < 1e-5);
+        assert!((done(-PI + 1e-6) - 0.5).abs() < 1e-5);
+        assert!((done(-FRAC_PI_2) - 1.0).abs() < 1e-9);
     }
 
     /// A controller of a shipped repertoire, from standing upright or lying on the back.
