@@ -6,6 +6,7 @@
 mod bad_files;
 mod bad_usage;
 mod compare;
+mod figures;
 mod help;
 mod output;
 mod preconditions;

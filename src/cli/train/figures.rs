@@ -17,6 +17,9 @@ use super::cmrt::Judged;
 use crate::cli::output::{check_writable, message};
 use crate::cli::scene;
 
+/// Frames of either film strip, so that they are compared with each other.
+const FRAMES: usize = 12;
+
 /// A folder for figures, checked before the search.
 pub(super) struct Figures {
     folder: PathBuf,
@@ -88,8 +91,12 @@ impl Figures {
             without: rollout(&without, flat),
             with: rollout(&with, optimised),
         })?;
+        let options = FilmOptions {
+            frames: Some(FRAMES),
+            ..FilmOptions::default()
+        };
         for (name, recording) in [("without", &without), ("with", &with)] {
-            let svg = filmstrip(recording, &FilmOptions::default())?;
+            let svg = filmstrip(recording, &options)?;
             drawings.push(Drawing { name, svg });
         }
         self.write(&drawings)

@@ -76,7 +76,10 @@ pub(super) fn figure(course: &[(usize, f64)], flat: f64) -> Result<String> {
         .add(chart.frame());
     if let (Some(p), Some([x, y])) = (best.last(), steps.last()) {
         let at = [chart.at[0] + x, chart.at[1] + y];
-        let told = text([at[0] - 2.0, at[1] - 9.0], 10.5, INK, "end", &short(p[1]));
+        // Over the mark, or under it at the upper edge.
+        let off = if *y > 24.0 { -9.0 } else { 18.0 };
+        let told = [at[0] - 2.0, at[1] + off];
+        let told = text(told, 10.5, INK, "end", &short(p[1]));
         group = group.add(Mark::Circle.draw(at, 4.0, COLOUR)).add(told);
     }
     let legend = Legend::new([chart.at[0] + chart.size[0] + 16.0, 24.0])

@@ -40,7 +40,7 @@ pub(super) fn figure(basis: &Basis) -> Result<String> {
         Some("time from the beginning of the motion (s)"),
     ));
     let x = chart.at[0] + chart.size[0] + 16.0;
-    let name = shortened(&basis.parameter, 10.5, 130.0);
+    let name = shortened(&basis.parameter, 10.5, 92.0);
     let mut legend = Legend::new([x, 42.0]);
     group = group.add(text([x, 24.0], 10.5, INK, "start", &name).set("font-weight", "bold"));
     let every = family.len().div_ceil(NAMED);
@@ -57,7 +57,7 @@ pub(super) fn figure(basis: &Basis) -> Result<String> {
         }
     }
     group = group.add(chart.frame()).add(legend.finish());
-    Ok(document([694.0, 352.0], group))
+    Ok(document([652.0, 352.0], group))
 }
 
 /// A parameter's value in a few digits.

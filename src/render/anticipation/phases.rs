@@ -47,19 +47,20 @@ pub(super) fn bar(x: f64, top: f64, height: f64) -> Group {
     Group::new().add(line([x, top], [x, top + height], INK, 1.6))
 }
 
-/// Where another controller took over, at a time in s, with its name at the lower edge.
+/// Where another controller took over, at a time in s, with its name near the lower edge.
 pub(super) fn successor(chart: &Chart, (time, name): (f64, &str)) -> Group {
     let x = chart.across(time);
     let [top, bottom] = [chart.at[1], chart.at[1] + chart.size[1]];
     let told = format!("{name} takes over");
-    let room = chart.at[0] + chart.size[0] - x - 10.0;
-    let (at, anchor) = if text_width(&told, SIZE) < room {
-        (x + 5.0, "start")
-    } else {
-        (x - 5.0, "end")
-    };
+    let width = text_width(&told, SIZE) + 8.0;
+    let fits = x + 4.0 + width < chart.at[0] + chart.size[0];
+    let left = if fits { x + 4.0 } else { x - 4.0 - width };
     let mark = line([x, top], [x, bottom], PUSH, 1.3).set("stroke-dasharray", "2,2.5");
+    // On a plate, to be read over curves.
+    let plate = rectangle([left, bottom - 36.0], [width, 16.0], "#ffffff");
+    let middle = [left + 0.5 * width, bottom - 24.5];
     Group::new()
         .add(mark)
-        .add(text([at, bottom - 7.0], SIZE, PUSH, anchor, &told))
+        .add(plate.set("opacity", 0.85).set("rx", 3))
+        .add(text(middle, SIZE, PUSH, "middle", &told))
 }

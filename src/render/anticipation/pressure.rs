@@ -3,14 +3,16 @@
 use anyhow::Result;
 use svg::node::element::Group;
 
-use super::Learned;
 use super::phases::{bar, bars, successor};
 use super::samples::Samples;
+use super::{Learned, Rollout};
 use crate::render::chart::{Chart, Style, range};
 use crate::render::legend::Legend;
 use crate::render::style::{FORCE, INK, SUPPORT, document, px, rectangle, text};
 
 const ERROR: Style = Style::solid(FORCE, 1.6);
+/// Of the error after another controller took over.
+const AFTERWARDS: f64 = 0.4;
 /// Of the area between the ends of the soles.
 const OPACITY: f64 = 0.25;
 /// Of the plotting areas, px.
@@ -45,13 +47,16 @@ pub(super) fn figure(learned: &Learned<'_>) -> Result<String> {
         let below = (k == 1).then_some("time from the beginning of the motion (s)");
         group = group
             .add(sole.set("opacity", OPACITY))
-            .add(chart.axes("error of the centre of pressure (m)", below))
-            .add(chart.curve(len, dt, |i| samples.cop_error(i), ERROR))
+            .add(chart.axes("centre of pressure (m)", below))
+            .add(error(&chart, samples, |i| i < samples.own()))
+            .add(error(&chart, samples, |i| i >= samples.own()).set("opacity", AFTERWARDS))
             .add(bars(&chart, learned.phases));
         if let Some(next) = samples.successor() {
             group = group.add(successor(&chart, next));
         }
-        group = group.add(chart.frame()).add(title(&chart, name, *rollout));
+        group = group
+            .add(chart.frame())
+            .add(title(&chart, name, *rollout, samples));
     }
     let legend = Legend::new([CORNER[0] + SIZE[0] + 16.0, CORNER[1] + 10.0])
         .entry(
@@ -81,15 +86,30 @@ fn extremes(samples: &Samples<'_>) -> impl Iterator<Item = f64> {
     })
 }
 
-/// What a panel shows, over it.
-fn title(chart: &Chart, name: &str, rollout: super::Rollout<'_>) -> Group {
+/// The error where it is wanted.
+fn error(chart: &Chart, samples: &Samples<'_>, wanted: impl Fn(usize) -> bool) -> Group {
+    let value = |i| {
+        if wanted(i) {
+            samples.cop_error(i)
+        } else {
+            f64::NAN
+        }
+    };
+    chart.curve(samples.len, samples.dt, value, ERROR)
+}
+
+/// What a panel shows, over it. A norm is comparable only if the motion came to its end.
+fn title(chart: &Chart, name: &str, rollout: Rollout<'_>, samples: &Samples<'_>) -> Group {
     let [x, y] = [chart.at[0], chart.at[1] - 8.0];
-    let mut group = Group::new();
-    group = group.add(text([x, y], 11.5, INK, "start", name).set("font-weight", "bold"));
-    if rollout.cop_norm.is_finite() {
-        let norm = format!("2-norm {:.2} m", rollout.cop_norm);
-        let right = x + chart.size[0];
-        group = group.add(text([right, y], 10.5, INK, "end", &norm));
+    let mut told = Vec::new();
+    if samples.left.is_none() && rollout.cop_norm.is_finite() {
+        told.push(format!("2-norm {:.2} m", rollout.cop_norm));
     }
-    group
+    if rollout.objective.is_finite() {
+        told.push(format!("objective {:.2}", rollout.objective));
+    }
+    let right = [x + chart.size[0], y];
+    Group::new()
+        .add(text([x, y], 11.5, INK, "start", name).set("font-weight", "bold"))
+        .add(text(right, 10.5, INK, "end", &told.join(", ")))
 }

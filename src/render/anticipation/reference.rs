@@ -78,8 +78,8 @@ pub(super) fn figure(learned: &Learned<'_>) -> Result<String> {
             let sample = Group::new().add(REFERENCE.sample([x, y], 22.0));
             sample.add(Mark::Circle.draw([x + 11.0, y], RADIUS, INK))
         })
-        .entry("centre of mass", |at| {
+        .entry("centre of mass\nas it moved", |at| {
             Group::new().add(ACTUAL.sample(at, 22.0))
         });
-    Ok(document([712.0, 346.0], group.add(legend.finish())))
+    Ok(document([706.0, 346.0], group.add(legend.finish())))
 }

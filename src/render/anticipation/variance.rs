@@ -36,7 +36,7 @@ pub(super) fn figure(basis: &Basis) -> Result<String> {
         at: [66.0, 14.0],
         size: [380.0, 260.0],
         span: [0.5, parts.len() as f64 + 0.5],
-        value: [0.0, 104.0],
+        value: [-4.0, 104.0],
     };
     let every = parts.len().div_ceil(20);
     let numbers = (1..=parts.len()).step_by(every);
