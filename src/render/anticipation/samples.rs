@@ -66,7 +66,7 @@ impl<'a> Samples<'a> {
     }
 
     /// From the middle of the base of support to a place, m; NaN without support.
-    fn from_middle(&self, i: usize, place: Option<f32>) -> f64 {
+    fn off_middle(&self, i: usize, place: Option<f32>) -> f64 {
         match (place, self.moment(i).support) {
             (Some(x), Some([rear, front])) => {
                 f64::from(x) - 0.5 * (f64::from(rear) + f64::from(front))
@@ -77,11 +77,11 @@ impl<'a> Samples<'a> {
 
     /// The error of the centre of pressure, m; NaN without contact.
     pub(super) fn cop_error(&self, i: usize) -> f64 {
-        self.from_middle(i, self.moment(i).cop)
+        self.off_middle(i, self.moment(i).cop)
     }
 
     /// The centre of mass from the middle of the base of support, m; NaN without support.
     pub(super) fn com(&self, i: usize) -> f64 {
-        self.from_middle(i, Some(self.moment(i).com[0]))
+        self.off_middle(i, Some(self.moment(i).com[0]))
     }
 }
