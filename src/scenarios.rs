@@ -10,11 +10,12 @@ use aplomb_framework::file::Source;
 use aplomb_framework::scenario::Scenario;
 
 /// The shipped scenarios: name and text.
-pub const SHIPPED: [(&str, &str); 5] = [
+pub const SHIPPED: [(&str, &str); 6] = [
     (
         "clips/fast_bend",
         include_str!("../scenarios/clips/fast_bend.ron"),
     ),
+    ("clips/kick", include_str!("../scenarios/clips/kick.ron")),
     (
         "clips/slow_bend",
         include_str!("../scenarios/clips/slow_bend.ron"),
@@ -65,15 +66,19 @@ pub fn load(name_or_path: &str) -> Result<Scenario> {
 /// As [`load`].
 pub fn load_clip(name_or_path: &str) -> Result<Scenario> {
     let clip = format!("{CLIPS}/{name_or_path}");
-    let names = || SHIPPED.iter().map(|(n, _)| *n);
-    if names().any(|n| n == clip) {
+    if SHIPPED.iter().any(|(n, _)| *n == clip) {
         return load(&clip);
     }
     if !Path::new(name_or_path).exists() && !name_or_path.contains(['/', '.']) {
-        let clips = names().filter_map(|n| n.strip_prefix("clips/"));
-        return Err(Error::unknown("clip", name_or_path, clips));
+        return Err(Error::unknown("clip", name_or_path, clips()));
     }
     load(name_or_path)
+}
+
+/// Names of the shipped clips, as [`load_clip`] takes them.
+pub fn clips() -> impl Iterator<Item = &'static str> {
+    let names = SHIPPED.iter().map(|(n, _)| *n);
+    names.filter_map(|n| n.strip_prefix(CLIPS)?.strip_prefix('/'))
 }
 
 /// Makes `name` the path of the file of this name in `folder`, if there is one.

@@ -56,6 +56,7 @@ macro_rules! shipped {
 
 const FILES: &[(&str, &str)] = shipped![
     "clips/bend.ron",
+    "clips/kick.ron",
     "learned/balance.boundary.ron",
     "learned/fall.boundary.ron",
     "learned/protective_step.boundary.ron",

@@ -8,16 +8,34 @@
 use allocation_counter::measure;
 use aplomb_controllers::registry;
 use aplomb_framework::controller::Controller;
-use aplomb_framework::file::Source;
-use aplomb_framework::model::Model;
+use aplomb_framework::file::{Source, options};
+use aplomb_framework::model::{Model, Shape};
 use aplomb_framework::repertoire;
 use aplomb_framework::scenario::Scenario;
 use aplomb_framework::simulation::Simulation;
 use aplomb_framework::state::State;
-use aplomb_framework::world::{Settings, World};
+use aplomb_framework::world::{Prop, Settings, World};
 
 /// Allocations of the engine a step, in `actuate` and in `step`.
 const ENGINE: [u64; 2] = [3, 5];
+
+/// Out of reach, but sensed.
+fn wall() -> Prop {
+    Prop {
+        name: "wall".to_owned(),
+        shape: Shape::Box {
+            half: [0.1, 1.0],
+            centre: [0.0, 0.0],
+        },
+        mass: 0.0,
+        position: [5.0, 1.0],
+        angle: 0.0,
+        velocity: [0.0; 2],
+        friction: 1.0,
+        restitution: 0.0,
+        grip: 100.0,
+    }
+}
 
 #[test]
 fn sensing_and_thinking_allocate_nothing() {
@@ -25,6 +43,7 @@ fn sensing_and_thinking_allocate_nothing() {
     let mut mind = repertoire::load("humanoid", &registry(), &model).unwrap();
     let mut world = World::new(Settings::default());
     world.spawn(&model, &State::standing(&model));
+    world.add_prop(&wall());
     world.detect_contacts();
     let mut torques = vec![0.0; model.joint_count()];
     let (mut ours, mut actuate, mut engine) = (0, 0, 0);
@@ -34,15 +53,16 @@ fn sensing_and_thinking_allocate_nothing() {
         });
         let thinking = measure(|| mind.act(&world.characters()[0].sensors, &mut torques));
         let acting = measure(|| world.actuate(0, &torques));
+        let gripping = measure(|| world.grip(0, true));
         let stepping = measure(|| world.step());
         if step >= 2000 {
-            ours += sensing.count_total + thinking.count_total;
+            ours += sensing.count_total + thinking.count_total + gripping.count_total;
             actuate += acting.count_total;
             engine += stepping.count_total;
         }
     }
     assert_eq!(mind.active(), Some("balance"));
-    assert_eq!(ours, 0, "sense and act");
+    assert_eq!(ours, 0, "sense, act and grip");
     let [most, steps_most] = ENGINE.map(|n| 1000 * n);
     assert!(
         actuate <= most && engine <= steps_most,
@@ -81,7 +101,15 @@ fn asking_what_was_learned_allocates_nothing() {
 
 #[test]
 fn a_step_of_a_simulation_allocates_only_in_the_engine() {
-    let scenario = Scenario::standing("humanoid", 3.0);
+    let mut scenario = Scenario::standing("humanoid", 3.0);
+    for expectation in [
+        "Balanced()",
+        "Holds(condition: Within(feature: \"com_speed\", max: 1), at: 2.5)",
+        "Reaches(condition: Within(feature: \"com_speed\", min: 9), before: 9)",
+    ] {
+        let expectation = options().from_str(expectation).unwrap();
+        scenario.expect.push(expectation);
+    }
     let mut simulation = Simulation::new(&scenario, &registry()).unwrap();
     simulation.run(2.0);
     let events = simulation.events().len();

@@ -42,6 +42,13 @@ struct Hold {
     slipped: Option<(usize, u64)>,
 }
 
+/// What the engine knows of touches.
+pub(crate) struct Touched<'a> {
+    pub(crate) bodies: &'a RigidBodySet,
+    pub(crate) colliders: &'a ColliderSet,
+    pub(crate) narrow_phase: &'a NarrowPhase,
+}
+
 impl Grips {
     /// Open hands.
     pub(crate) fn new(model: &Model) -> Self {
@@ -76,14 +83,17 @@ impl Grips {
         body: &Body,
         props: &[Placed],
         step: u64,
-        bodies: &RigidBodySet,
-        colliders: &ColliderSet,
-        narrow_phase: &NarrowPhase,
+        engine: &Touched<'_>,
         joints: &mut ImpulseJointSet,
     ) {
         if !self.closed {
             return;
         }
+        let Touched {
+            bodies,
+            colliders,
+            narrow_phase,
+        } = engine;
         for (hand, hold) in body.model().hands.iter().zip(&mut self.hands) {
             if hold.held.is_some() {
                 continue;

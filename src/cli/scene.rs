@@ -21,8 +21,8 @@ const LARGEST_RECORDING: f64 = 1e9;
 /// Who takes part, where, with which parameters.
 #[derive(Debug, Args)]
 pub(super) struct SceneArgs {
-    /// A shipped scenario (push, standing, story) or a scenario file; the humanoid standing on
-    /// level ground if left out
+    /// A shipped scenario (push, standing, story, clips/NAME: see `aplomb clips`) or a scenario
+    /// file; the humanoid standing on level ground if left out
     scenario: Option<String>,
     #[command(flatten)]
     cast: CastArgs,

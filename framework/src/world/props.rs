@@ -7,6 +7,7 @@ use rapier2d::prelude::*;
 use super::{Hinge, Prop, PropMotion, World};
 use crate::body::vector;
 use crate::fastening::Fastening;
+use crate::grips::Touched;
 use crate::prop::Placed;
 use crate::sensed_prop::SensedProp;
 
@@ -105,16 +106,14 @@ impl World {
 
     /// Closed hands take what they touch.
     pub(super) fn take_hold(&mut self) {
+        let touched = Touched {
+            bodies: &self.bodies,
+            colliders: &self.colliders,
+            narrow_phase: &self.narrow_phase,
+        };
+        let joints = &mut self.impulse_joints;
         for (character, grips) in self.characters.iter().zip(&mut self.grips) {
-            grips.take(
-                &character.body,
-                &self.props,
-                self.steps,
-                &self.bodies,
-                &self.colliders,
-                &self.narrow_phase,
-                &mut self.impulse_joints,
-            );
+            grips.take(&character.body, &self.props, self.steps, &touched, joints);
         }
     }
 

@@ -20,6 +20,8 @@ use serde::Deserialize;
 pub(crate) struct Puppet {
     contract: Contract,
     torque: f64,
+    /// Whether its hands are closed.
+    grips: bool,
     /// Its bid, whatever its contract says.
     bid: Option<f64>,
     entered: Arc<AtomicUsize>,
@@ -31,6 +33,7 @@ pub(crate) struct Puppet {
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct PuppetSpec {
     torque: f64,
+    grips: bool,
 }
 
 impl Puppet {
@@ -51,6 +54,7 @@ impl Puppet {
         Self {
             contract,
             torque: 0.0,
+            grips: false,
             bid: None,
             entered: Arc::default(),
             obeyed: Arc::default(),
@@ -109,11 +113,12 @@ impl Spec for PuppetSpec {
     const KIND: &'static str = "puppet";
 
     fn build(self, contract: Contract, _: &Arc<Model>) -> Result<Box<dyn Controller>> {
-        let torque = self.torque;
+        let (torque, grips) = (self.torque, self.grips);
         let (entered, obeyed) = (Arc::default(), Arc::default());
         Ok(Box::new(Puppet {
             contract,
             torque,
+            grips,
             bid: None,
             entered,
             obeyed,
@@ -136,6 +141,10 @@ impl Controller for Puppet {
 
     fn act(&mut self, _: &Sensors, torques: &mut [f64]) {
         torques.fill(self.torque);
+    }
+
+    fn grips(&self) -> bool {
+        self.grips
     }
 
     fn clone_box(&self) -> Box<dyn Controller> {

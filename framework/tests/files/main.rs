@@ -6,6 +6,8 @@
 mod common;
 
 mod boundaries;
+mod expectations;
+mod props;
 mod recordings;
 mod repertoires;
 mod scenarios;

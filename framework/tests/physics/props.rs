@@ -206,7 +206,12 @@ fn tip(world: &mut World) -> [f64; 2] {
 fn a_ball_that_is_grasped_hangs_and_falls_when_the_hands_open() {
     let mut world = under_the_hands(2.0, 600.0);
     world.grip(0, true);
-    run(&mut world, 1500, reaching);
+    run(&mut world, 500, reaching);
+    let mut load = 0.0;
+    run(&mut world, 1000, |now, torques| {
+        reaching(now, torques);
+        load += now.ground_reaction_force[1] / G / 1000.0;
+    });
     let now = world.sense(0).clone();
     let ball = &now.props[0];
     assert!(ball.held && world.holds(0, 0));
@@ -217,18 +222,22 @@ fn a_ball_that_is_grasped_hangs_and_falls_when_the_hands_open() {
         (hangs[0] - x).abs() < 0.02 && (y - hangs[1] - RADIUS - 0.035).abs() < 0.01,
         "({x}, {y}) {hangs:?}"
     );
-    let carried = now.ground_reaction_force[1] / G - now.model.total_mass();
-    assert!((carried - 2.0).abs() < 0.2, "{carried} kg");
+    let carried = load - now.model.total_mass();
+    assert!((carried - 2.0).abs() < 0.25, "{carried} kg");
     assert!((ball.height - hangs[1]).abs() < 5e-3);
     assert!((ball.ahead + now.state.q[0] - hangs[0]).abs() < 1e-9);
     world.grip(0, false);
     assert!(!world.holds(0, 0));
     run(&mut world, 200, reaching);
     let fallen = hangs[1] - world.prop_motion(0).position[1];
-    assert!((fallen - 0.5 * G * 0.04).abs() < 0.01, "{fallen}");
+    let down = -ball.velocity[1];
+    assert!(
+        (fallen - 0.2 * down - 0.5 * G * 0.04).abs() < 5e-3,
+        "{fallen} from {down}"
+    );
     let now = world.sense(0);
     assert!(!now.props[0].held);
-    assert!((now.props[0].velocity[1] + 0.2 * G).abs() < 0.1);
+    assert!((now.props[0].velocity[1] + down + 0.2 * G).abs() < 0.02);
 }
 
 #[test]

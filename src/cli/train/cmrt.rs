@@ -14,9 +14,7 @@ use aplomb::framework::file::write_atomically;
 use aplomb::training::anticipation::basis::Basis;
 use aplomb::training::anticipation::clip::Clip;
 use aplomb::training::anticipation::encoding::Encoding;
-use aplomb::training::anticipation::objective::{
-    ENOUGH, Evaluation, PERTURBED, evaluate, successes,
-};
+use aplomb::training::anticipation::objective::Judged;
 use aplomb::training::anticipation::search::{Found, Keep, Plan, search};
 use aplomb::training::journal;
 use clap::Args;
@@ -26,7 +24,7 @@ use serde::Serialize;
 use super::figures::Figures;
 use crate::cli::output::{check_writable, message};
 use crate::cli::values::{Setting, number, whole};
-use crate::cli::{Verdict, progress, work};
+use crate::cli::{Verdict, clips, progress, work};
 
 /// Learn to anticipate a task: the centre-of-mass reference trajectory of a clip
 ///
@@ -122,31 +120,6 @@ struct Report {
     out: String,
 }
 
-/// A trajectory's rollout, and how often it succeeds.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub(super) struct Judged {
-    pub(super) objective: f64,
-    pub(super) cop_norm: f64,
-    tracking: f64,
-    succeeds: bool,
-    /// Of the perturbed starts.
-    successes: usize,
-    starts: usize,
-}
-
-impl Judged {
-    fn new(evaluation: Evaluation, successes: usize) -> Self {
-        Self {
-            objective: evaluation.objective,
-            cop_norm: evaluation.cop_norm,
-            tracking: evaluation.tracking,
-            succeeds: successes >= ENOUGH,
-            successes,
-            starts: PERTURBED,
-        }
-    }
-}
-
 impl CmrtArgs {
     pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
         let clip = self.search.clip(&self.clip)?;
@@ -176,10 +149,9 @@ impl CmrtArgs {
         };
         let seed = self.search.seed;
         let (flat, found, optimised) = self.search.jobs.threads()?.install(|| {
-            let flat = Judged::new(evaluate(&clip, None)?, successes(&clip, None, seed)?);
+            let flat = Judged::new(&clip, None, seed)?;
             let found = shown(&clip, &plan, keep, &stop)?;
-            let best = Some(&found.cmrt);
-            let optimised = Judged::new(evaluate(&clip, best)?, successes(&clip, best, seed)?);
+            let optimised = Judged::new(&clip, Some(&found.cmrt), seed)?;
             anyhow::Ok((flat, found, optimised))
         })?;
         let report = Report {
@@ -228,13 +200,8 @@ impl SearchArgs {
 
     /// The same with further parameters.
     pub(super) fn clip_with(&self, name: &str, further: &[Setting]) -> Result<Clip> {
-        let registry = aplomb::controllers::registry();
-        let mut scenario = aplomb::scenarios::load_clip(name)?;
-        for Setting { key, value } in self.set.iter().chain(further) {
-            let option = || format!("--set {key}={value}");
-            scenario.set(key, *value).with_context(option)?;
-        }
-        Ok(Clip::new(scenario, &registry)?)
+        let all: Vec<Setting> = self.set.iter().chain(further).cloned().collect();
+        clips::load(name, &all)
     }
 
     /// All knots and control points.

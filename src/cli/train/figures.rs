@@ -11,9 +11,9 @@ use aplomb::render::anticipation::{Drawing, Learned, Rollout, basis, learned};
 use aplomb::render::{FilmOptions, filmstrip};
 use aplomb::training::anticipation::basis::Basis;
 use aplomb::training::anticipation::clip::Clip;
+use aplomb::training::anticipation::objective::Judged;
 use aplomb::training::anticipation::search::Found;
 
-use super::cmrt::Judged;
 use crate::cli::output::{check_writable, message};
 use crate::cli::scene;
 
@@ -80,12 +80,12 @@ impl Figures {
             objective: judged.objective,
             cop_norm: judged.cop_norm,
         };
-        let controller = clip.controller();
-        let phase = |phase| controller.timeline(0).map_or(0.0, |t| t.time(phase));
+        let [preparation, task, decay] = clip.phases();
+        let before = clip.controller().timeline(0).map_or(0.0, |t| t.time(0.0));
         let mut drawings = learned(&Learned {
             controller: &clip.contract().name,
-            begin: clip.at + phase(0.0),
-            phases: [1.0, 2.0, 3.0].map(|p| phase(p) - phase(0.0)),
+            begin: clip.at + before,
+            phases: [preparation, preparation + task, preparation + task + decay],
             cmrt: &found.cmrt,
             course: &found.course,
             without: rollout(&without, flat),

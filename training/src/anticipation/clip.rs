@@ -98,6 +98,17 @@ impl Clip {
         self.spec.motions[0].length
     }
 
+    /// s of preparation, task and decay of the first motion, as commanded.
+    #[must_use]
+    pub fn phases(&self) -> [f64; 3] {
+        let time = |phase: f64| {
+            let line = self.controller.timeline(0);
+            line.map_or(0.0, |line| line.time(phase))
+        };
+        let [t0, t1, t2, t3] = [0.0, 1.0, 2.0, 3.0].map(time);
+        [t1 - t0, t2 - t1, t3 - t2]
+    }
+
     /// The controller as commanded, with its own trajectories.
     #[must_use]
     pub fn controller(&self) -> &CmrtController {

@@ -12,6 +12,7 @@ use aplomb_framework::supervisor::Supervisor;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::clip::Clip;
 
@@ -43,6 +44,42 @@ pub struct Evaluation {
     pub tracking: f64,
     /// Whether the controller came to its end and every expectation of the scenario was met.
     pub succeeds: bool,
+}
+
+/// A trajectory's rollout, and how often it succeeds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Judged {
+    /// Of the unperturbed start.
+    pub objective: f64,
+    /// See [`Evaluation::cop_norm`].
+    pub cop_norm: f64,
+    /// See [`Evaluation::tracking`].
+    pub tracking: f64,
+    /// Whether enough starts succeed.
+    pub succeeds: bool,
+    /// Of the perturbed starts.
+    pub successes: usize,
+    /// Perturbed starts.
+    pub starts: usize,
+}
+
+impl Judged {
+    /// Judges a trajectory, or none; the seed fixes the starts.
+    ///
+    /// # Errors
+    /// As [`evaluate`].
+    pub fn new(clip: &Clip, cmrt: Option<&Cmrt>, seed: u64) -> Result<Self> {
+        let evaluation = evaluate(clip, cmrt)?;
+        let successes = successes(clip, cmrt, seed)?;
+        Ok(Self {
+            objective: evaluation.objective,
+            cop_norm: evaluation.cop_norm,
+            tracking: evaluation.tracking,
+            succeeds: successes >= ENOUGH,
+            successes,
+            starts: PERTURBED,
+        })
+    }
 }
 
 /// Runs the clip along a trajectory, or none.

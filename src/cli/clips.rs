@@ -1,0 +1,144 @@
+//! `aplomb clips`: what the clips do without and with their reference trajectories.
+//!
+//! arguments → clips → rollouts → table. The number of threads changes nothing.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+
+use anyhow::{Context, Result};
+use aplomb::training::anticipation::clip::Clip;
+use aplomb::training::anticipation::objective::Judged;
+use clap::Args;
+use serde::Serialize;
+
+use super::values::{Setting, whole};
+use super::{Verdict, work};
+
+/// List the clips, and measure them without and with anticipation
+///
+/// For every clip: its phases in s, and the objective, the 2-norm of the centre of pressure's error
+/// and how many of 20 slightly different starts succeed, without a reference trajectory of the centre
+/// of mass and with the one that its controller has for its parameters (interpolated between those
+/// that were learned).
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  aplomb clips
+  aplomb clips fast_bend --set duration=0.5 --json")]
+pub(super) struct ClipsArgs {
+    /// Shipped clips (fast_bend for the scenario clips/fast_bend) or scenario files; all shipped ones
+    /// if left out
+    clips: Vec<String>,
+    /// Sets a parameter of the clips; repeatable
+    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    set: Vec<Setting>,
+    /// Fixes the starts
+    #[arg(long, value_name = "N", default_value = "0",
+          value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
+    seed: u64,
+    #[command(flatten)]
+    jobs: work::Jobs,
+    /// Prints one JSON value instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+/// One clip. Names are a contract with other people's scripts.
+#[derive(Debug, Serialize)]
+struct Row {
+    clip: String,
+    character: String,
+    parameters: BTreeMap<String, f64>,
+    length: f64,
+    preparation: f64,
+    task: f64,
+    decay: f64,
+    flat: Judged,
+    /// None without a trajectory.
+    learned: Option<Judged>,
+}
+
+impl ClipsArgs {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        let names: Vec<String> = if self.clips.is_empty() {
+            aplomb::scenarios::clips().map(str::to_owned).collect()
+        } else {
+            self.clips.clone()
+        };
+        let threads = self.jobs.threads()?;
+        let row = |name: &String| {
+            let clip = load(name, &self.set)?;
+            threads.install(|| Row::new(&clip, self.seed))
+        };
+        let rows = names.iter().map(row).collect::<Result<Vec<Row>>>()?;
+        if self.json {
+            serde_json::to_writer(&mut *out, &rows)?;
+            writeln!(out)?;
+        } else {
+            print(out, &rows)?;
+        }
+        Ok(Verdict::Done)
+    }
+}
+
+/// The clip of this name with parameters set.
+pub(super) fn load(name: &str, set: &[Setting]) -> Result<Clip> {
+    let mut scenario = aplomb::scenarios::load_clip(name)?;
+    for Setting { key, value } in set {
+        let option = || format!("--set {key}={value}");
+        scenario.set(key, *value).with_context(option)?;
+    }
+    Ok(Clip::new(scenario, &aplomb::controllers::registry())?)
+}
+
+impl Row {
+    fn new(clip: &Clip, seed: u64) -> Result<Self> {
+        let [preparation, task, decay] = clip.phases();
+        let shipped = clip.shipped();
+        let learned = shipped.map(|c| Judged::new(clip, Some(&c), seed));
+        Ok(Self {
+            clip: clip.scenario.name.clone(),
+            character: clip.model.name.clone(),
+            parameters: clip.parameters(),
+            length: clip.length(),
+            preparation,
+            task,
+            decay,
+            flat: Judged::new(clip, None, seed)?,
+            learned: learned.transpose()?,
+        })
+    }
+}
+
+fn print(out: &mut dyn Write, rows: &[Row]) -> std::io::Result<()> {
+    let wide = rows.iter().map(|r| r.clip.len()).max().unwrap_or(0);
+    writeln!(
+        out,
+        "{:wide$}  {:9} {:>17}   {:^28}   {:^28}",
+        "", "", "phases (s)", "without", "with"
+    )?;
+    let columns = format!("{:>9} {:>7} {:>10}", "objective", "CoP", "successes");
+    writeln!(
+        out,
+        "{:wide$}  {:9} {:>5} {:>5} {:>5}   {columns}   {columns}",
+        "clip", "character", "prep", "task", "decay"
+    )?;
+    for r in rows {
+        let judged = |j: &Judged| {
+            let successes = format!("{}/{}", j.successes, j.starts);
+            format!("{:9.3} {:7.3} {successes:>10}", j.objective, j.cop_norm)
+        };
+        let with = r.learned.as_ref().map_or("–".to_owned(), judged);
+        writeln!(
+            out,
+            "{:wide$}  {:9} {:5.2} {:5.2} {:5.2}   {}   {with}",
+            r.clip,
+            r.character,
+            r.preparation,
+            r.task,
+            r.decay,
+            judged(&r.flat)
+        )?;
+    }
+    Ok(())
+}
