@@ -8,6 +8,8 @@ use crate::render::drawable;
 
 /// Steps by which the controller may be over before its motion is.
 const EARLY: usize = 3;
+/// More than the middle of the base of support moves in a step while the same feet stand, m.
+const JUMP: f64 = 5e-3;
 
 /// The samples of a motion, counted from its beginning.
 pub(super) struct Samples<'a> {
@@ -65,23 +67,29 @@ impl<'a> Samples<'a> {
         Some([-half, half])
     }
 
-    /// From the middle of the base of support to a place, m; NaN without support.
-    fn off_middle(&self, i: usize, place: Option<f32>) -> f64 {
-        match (place, self.moment(i).support) {
-            (Some(x), Some([rear, front])) => {
-                f64::from(x) - 0.5 * (f64::from(rear) + f64::from(front))
-            }
-            _ => f64::NAN,
-        }
+    /// Middle of the base of support, world x, m; NaN without support.
+    fn middle(&self, i: usize) -> f64 {
+        let support = self.moment(i).support;
+        support.map_or(f64::NAN, |[rear, front]| {
+            0.5 * (f64::from(rear) + f64::from(front))
+        })
     }
 
     /// The error of the centre of pressure, m; NaN without contact.
     pub(super) fn cop_error(&self, i: usize) -> f64 {
-        self.off_middle(i, self.moment(i).cop)
+        let cop = self.moment(i).cop;
+        cop.map_or(f64::NAN, |x| f64::from(x) - self.middle(i))
     }
 
-    /// The centre of mass from the middle of the base of support, m; NaN without support.
+    /// The centre of mass from the middle of the base of support, m; NaN without support, and where a
+    /// foot that touches or leaves moves the middle at once.
     pub(super) fn com(&self, i: usize) -> f64 {
-        self.off_middle(i, Some(self.moment(i).com[0]))
+        let middle = self.middle(i);
+        let jumps = i > 0 && (middle - self.middle(i - 1)).abs() > JUMP;
+        if jumps {
+            f64::NAN
+        } else {
+            f64::from(self.moment(i).com[0]) - middle
+        }
     }
 }
