@@ -70,12 +70,13 @@ impl Chart {
         for b in 0..buckets {
             let all = b * len / buckets..(b + 1) * len / buckets;
             let gap = all.clone().find(|i| value(*i).is_nan());
+            let last_gap = all.clone().rfind(|i| value(*i).is_nan());
             let low = all.clone().min_by(|i, j| value(*i).total_cmp(&value(*j)));
             let high = all
                 .clone()
                 .filter(|i| !value(*i).is_nan())
                 .max_by(|i, j| value(*i).total_cmp(&value(*j)));
-            let mut these: Vec<usize> = [gap, low, high].into_iter().flatten().collect();
+            let mut these: Vec<usize> = [gap, last_gap, low, high].into_iter().flatten().collect();
             these.sort_unstable();
             these.dedup();
             kept.extend(these);
