@@ -1,5 +1,5 @@
 //! Pictures of recorded runs: film strips, plots over time, animations; and figures of learned
-//! pre-conditions ([`comparison`]).
+//! pre-conditions ([`comparison`]) and of learned anticipation ([`anticipation`]).
 //!
 //! [`Trajectory`] → SVG text → PNG, GIF, MP4. All pictures are drawn as SVG; the others are
 //! rasterised from it with an embedded font, so that they look the same on every machine.
@@ -7,12 +7,14 @@
 //! Numbers in a recording that are no numbers are left out of the pictures.
 
 mod animation;
+pub mod anticipation;
 mod body;
 mod camera;
 mod chart;
 mod choose;
 pub mod comparison;
 mod film;
+mod legend;
 mod marks;
 mod palette;
 mod plot;

@@ -1,11 +1,12 @@
 //! One panel of a plot, most often over time: axes with units, lines with gaps, bands.
 
+mod axes;
+
 use svg::node::element::{Group, Polyline, SVG};
 
 use super::scene::window;
-use super::style::{
-    FAINT_INK, FRAME, GRID, INK, line, nice_step, points, px, rectangle, text, tick_label,
-};
+use super::style::points;
+pub(super) use axes::{even, logarithmic};
 
 /// A chart's place in the picture and what it spans.
 #[derive(Debug, Clone, Copy)]
@@ -59,68 +60,6 @@ impl Chart {
         window(self.at, self.size, content)
     }
 
-    /// Grid, ticks, labels; `below` is the label of the x axis, if that is labelled as well.
-    pub(super) fn axes(&self, label: &str, below: Option<&str>) -> Group {
-        let step = nice_step(self.span[1] - self.span[0], self.size[0] / 75.0);
-        let (first, last) = (self.span[0] / step, self.span[1] / step + 1e-9);
-        let values = (first.ceil() as i64..=last.floor() as i64).map(|k| k as f64 * step);
-        let ticks: Vec<_> = values.map(|v| (v, tick_label(v, step))).collect();
-        Group::new()
-            .add(self.rows(label))
-            .add(self.columns(&ticks, below))
-    }
-
-    /// Grid, ticks and label of the y axis.
-    pub(super) fn rows(&self, label: &str) -> Group {
-        let [x, y] = self.at;
-        let [width, height] = self.size;
-        let mut group = Group::new();
-        let step = nice_step(self.value[1] - self.value[0], (height / 34.0).max(3.0));
-        for k in (self.value[0] / step).ceil() as i64..=(self.value[1] / step).floor() as i64 {
-            let value = k as f64 * step;
-            let level = y + self.y(value);
-            let colour = if k == 0 { FRAME } else { GRID };
-            group = group
-                .add(line([x, level], [x + width, level], colour, 1.0))
-                .add(text(
-                    [x - 7.0, level + 3.6],
-                    10.5,
-                    INK,
-                    "end",
-                    &tick_label(value, step),
-                ));
-        }
-        let middle = [x - 46.0, y + height / 2.0];
-        let turn = format!("rotate(-90 {} {})", px(middle[0]), px(middle[1]));
-        group.add(text(middle, 11.0, INK, "middle", label).set("transform", turn))
-    }
-
-    /// Grid and ticks of the x axis at some values; their labels and the axis's, if it has one.
-    pub(super) fn columns(&self, ticks: &[(f64, String)], below: Option<&str>) -> Group {
-        let bottom = self.at[1] + self.size[1];
-        let mut group = Group::new();
-        for (along, name) in ticks {
-            let at = self.across(*along);
-            group = group
-                .add(line([at, self.at[1]], [at, bottom], GRID, 1.0))
-                .add(line([at, bottom], [at, bottom + 4.0], INK, 1.0));
-            if below.is_some() {
-                group = group.add(text([at, bottom + 16.0], 10.5, INK, "middle", name));
-            }
-        }
-        if let Some(below) = below {
-            let at = [self.at[0] + self.size[0] / 2.0, bottom + 33.0];
-            group = group.add(text(at, 11.0, INK, "middle", below));
-        }
-        group
-    }
-
-    /// The frame, drawn after everything else.
-    pub(super) fn frame(&self) -> Group {
-        let frame = rectangle(self.at, self.size, "none");
-        Group::new().add(frame.set("stroke", FAINT_INK).set("stroke-width", 1))
-    }
-
     /// Indices of `len` samples to draw: all, or those with the extreme values of each px.
     fn thinned(&self, len: usize, value: &impl Fn(usize) -> f64) -> Vec<usize> {
         let buckets = self.size[0] as usize;
@@ -131,12 +70,13 @@ impl Chart {
         for b in 0..buckets {
             let all = b * len / buckets..(b + 1) * len / buckets;
             let gap = all.clone().find(|i| value(*i).is_nan());
+            let last_gap = all.clone().rfind(|i| value(*i).is_nan());
             let low = all.clone().min_by(|i, j| value(*i).total_cmp(&value(*j)));
             let high = all
                 .clone()
                 .filter(|i| !value(*i).is_nan())
                 .max_by(|i, j| value(*i).total_cmp(&value(*j)));
-            let mut these: Vec<usize> = [gap, low, high].into_iter().flatten().collect();
+            let mut these: Vec<usize> = [gap, last_gap, low, high].into_iter().flatten().collect();
             these.sort_unstable();
             these.dedup();
             kept.extend(these);

@@ -7,7 +7,6 @@ mod boundary;
 mod confusion;
 mod field;
 mod learning;
-mod legend;
 mod limits;
 mod roc;
 

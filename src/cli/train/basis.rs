@@ -16,6 +16,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::cmrt::{SearchArgs, shown};
+use super::figures::Figures;
 use crate::cli::output::{check_writable, message};
 use crate::cli::values::{Setting, whole};
 use crate::cli::{Verdict, work};
@@ -49,6 +50,10 @@ pub(in crate::cli) struct BasisArgs {
     /// The basis file that is written [default: CLIP.basis.ron]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Draws figures into this folder, as SVG: the trajectories, their principal components, the variance
+    /// that these explain
+    #[arg(long, value_name = "DIR")]
+    figures: Option<PathBuf>,
     /// Goes on with the searches whose journals are beside the output
     #[arg(long)]
     resume: bool,
@@ -104,6 +109,13 @@ impl BasisArgs {
         let usual = || PathBuf::from(format!("{}.basis.ron", stem.to_string_lossy()));
         let file = self.out.clone().unwrap_or_else(usual);
         check_writable(&file)?;
+        let figures = match &self.figures {
+            Some(folder) => Some(Figures::new(
+                folder,
+                &self.search.clip(&self.clip)?.scenario,
+            )?),
+            None => None,
+        };
         let stop = work::stop_on_interrupt()?;
         let begun = Instant::now();
         let threads = self.search.jobs.threads()?;
@@ -134,6 +146,9 @@ impl BasisArgs {
         let components = self.components as usize;
         let basis = Basis::new(&self.clip, key, seed, family, components)?;
         basis.write(&file)?;
+        if let Some(figures) = figures {
+            figures.basis(&basis)?;
+        }
         let report = Report {
             clip: self.clip.clone(),
             parameter: key.clone(),

@@ -21,6 +21,7 @@ use clap::Args;
 use cpu_time::ProcessTime;
 use serde::Serialize;
 
+use super::figures::Figures;
 use crate::cli::output::{check_writable, message};
 use crate::cli::values::{Setting, number, whole};
 use crate::cli::{Verdict, clips, progress, work};
@@ -39,7 +40,7 @@ use crate::cli::{Verdict, clips, progress, work};
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  aplomb train cmrt fast_bend
+  aplomb train cmrt fast_bend --figures figures
   aplomb train cmrt push_dominoes --set mass=110 --out push.ron
   aplomb train cmrt push_dominoes --set mass=110 --basis push.basis.ron --json")]
 pub(in crate::cli) struct CmrtArgs {
@@ -56,6 +57,10 @@ pub(in crate::cli) struct CmrtArgs {
     /// The controller file that is written [default: CLIP.ron]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Draws figures into this folder, as SVG: the centre of pressure without and with the trajectory, the
+    /// trajectory, the search's convergence, a film strip of either run
+    #[arg(long, value_name = "DIR")]
+    figures: Option<PathBuf>,
     /// Goes on with the search whose journal is beside the output
     #[arg(long)]
     resume: bool,
@@ -134,6 +139,8 @@ impl CmrtArgs {
         let journal = journal::beside(&file);
         check_writable(&file)?;
         check_writable(&journal)?;
+        let figures = self.figures.as_deref();
+        let figures = figures.map(|f| Figures::of_clip(f, &clip)).transpose()?;
         let encoding = match &self.basis {
             None => self.search.encoding(&clip),
             Some(path) => Encoding::Reduced {
@@ -178,6 +185,9 @@ impl CmrtArgs {
         };
         let text = clip.text(&found.cmrt, &comment(&report));
         write_atomically(&file, text.as_bytes())?;
+        if let Some(figures) = figures {
+            figures.found(&clip, &found, &report.flat, &report.optimised)?;
+        }
         if report.interrupted {
             let n = report.evaluations;
             message(format_args!(

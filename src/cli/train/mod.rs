@@ -2,6 +2,7 @@
 
 mod basis;
 mod cmrt;
+mod figures;
 mod poses;
 mod preconditions;
 

@@ -8,9 +8,9 @@ use svg::node::element::{Group, Path};
 
 use super::Figure;
 use super::field::Field;
-use super::legend::{Legend, Mark};
 use super::limits::{Limits, STATURE};
 use crate::render::chart::{Chart, Style};
+use crate::render::legend::{Legend, Mark};
 use crate::render::style::{CAPTURE, INK, document, px, rectangle, text, text_width};
 
 /// Shades of the field.

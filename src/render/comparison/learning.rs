@@ -4,13 +4,11 @@ use anyhow::{Result, ensure};
 use aplomb_training::report::{CurvePoint, Report};
 use svg::node::element::Group;
 
-use super::legend::{Legend, Mark};
 use super::{Figure, NEIGHBOUR, SVM, check_share};
-use crate::render::chart::{Chart, Style, range};
+use crate::render::chart::{Chart, Style, logarithmic, range};
+use crate::render::legend::{Legend, Mark};
 use crate::render::style::document;
 
-/// Above so many decades only powers of ten are labelled.
-const DECADES: f64 = 2.2;
 const RADIUS: f64 = 4.0;
 
 /// # Errors
@@ -34,7 +32,10 @@ pub(super) fn figure(report: &Report) -> Result<Figure> {
     };
     let axes = Group::new()
         .add(chart.rows("balanced accuracy (%)"))
-        .add(chart.columns(&ticks(chart.span), Some("training samples (logarithmic)")));
+        .add(chart.columns(
+            &logarithmic(chart.span),
+            Some("training samples (logarithmic)"),
+        ));
     let mut group = Group::new().add(axes).add(chart.frame());
     let mut legend = Legend::new([chart.at[0] + chart.size[0] + 18.0, 22.0]);
     type Accuracy = fn(&CurvePoint) -> f64;
@@ -78,19 +79,4 @@ pub(super) fn figure(report: &Report) -> Result<Figure> {
         svg: document([560.0, 308.0], group.add(legend.finish())),
         caption,
     })
-}
-
-/// 1, 2 and 5 times powers of ten, or those alone over a wide range, by their logarithm.
-fn ticks([low, high]: [f64; 2]) -> Vec<(f64, String)> {
-    let times: &[f64] = if high - low > DECADES {
-        &[1.0]
-    } else {
-        &[1.0, 2.0, 5.0]
-    };
-    let powers = low.floor() as i32..=high.ceil() as i32;
-    let sizes = powers.flat_map(|p| times.iter().map(move |t| t * 10_f64.powi(p)));
-    sizes
-        .map(|size| (size.log10(), size.to_string()))
-        .filter(|(log, _)| (low..=high).contains(log))
-        .collect()
 }

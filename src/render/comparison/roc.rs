@@ -4,9 +4,9 @@ use anyhow::{Result, ensure};
 use aplomb_training::report::Report;
 use svg::node::element::Group;
 
-use super::legend::{Legend, Mark};
 use super::{Figure, HAND_MADE, NEIGHBOUR, SVM, check_share, operating_point};
 use crate::render::chart::{Chart, Style};
+use crate::render::legend::{Legend, Mark};
 use crate::render::style::{FAINT_INK, document};
 
 const CURVE: Style = Style::solid(SVM, 2.2);

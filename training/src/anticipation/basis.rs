@@ -161,6 +161,21 @@ impl Basis {
         ordered(pairs.collect(), length)
     }
 
+    /// The mean trajectory, moved along one component by so many of its standard deviations.
+    #[must_use]
+    pub fn along(&self, component: usize, deviations: f64) -> Cmrt {
+        let mut point = vec![0.5; self.components.len()];
+        if let Some(u) = point.get_mut(component) {
+            *u += deviations / (2.0 * SPREAD);
+        }
+        let length = |axis: &Vec<f64>, deviation: &f64| axis.last().map(|a| a * deviation);
+        let axis = self.components.get(component);
+        let moved = axis.zip(self.deviations.get(component));
+        let longer = moved.and_then(|(a, d)| length(a, d)).unwrap_or(0.0);
+        let mean = self.mean.last().copied().unwrap_or(0.0);
+        self.trajectory(&point, mean + deviations * longer)
+    }
+
     /// The point of the unit cube whose trajectory is nearest; none for another number of knots.
     #[must_use]
     pub fn point(&self, cmrt: &Cmrt) -> Option<Vec<f64>> {
@@ -207,6 +222,11 @@ mod tests {
             for (a, b) in row(&back).iter().zip(row(&member)) {
                 assert!((a - b).abs() < 1e-3, "{back:?} {member:?}");
             }
+        }
+        let ends = [-1.0, 1.0].map(|d| row(&basis.along(0, d)));
+        for (j, (low, high)) in ends[0].iter().zip(&ends[1]).enumerate() {
+            let between = 2.0 * basis.deviations[0] * basis.components[0][j];
+            assert!((high - low - between).abs() < 1e-9, "{ends:?}");
         }
         let middle = basis.trajectory(&[0.5; 3], 2.0);
         for (a, b) in row(&middle).iter().zip(&basis.mean) {

@@ -12,6 +12,7 @@ use aplomb_framework::controller::Controller;
 use aplomb_framework::model::Model;
 use aplomb_framework::registry::{Registry, Spec};
 use aplomb_framework::scenario::{Happening, Scenario};
+use aplomb_framework::simulation::Simulation;
 use aplomb_framework::supervisor::Supervisor;
 use aplomb_framework::{Error, Result};
 
@@ -154,6 +155,16 @@ impl Clip {
     pub fn mind(&self, cmrt: Option<Cmrt>) -> Result<Supervisor> {
         let controller = self.controller.clone().with_cmrt(self.motion, cmrt);
         self.skill.mind.with_replaced(controller.clone_box())
+    }
+
+    /// The scenario's run with the controller's first motion along a trajectory, or none, at its
+    /// beginning.
+    ///
+    /// # Errors
+    /// What makes a scenario or repertoire invalid.
+    pub fn simulation(&self, cmrt: Option<Cmrt>) -> Result<Simulation> {
+        let cast = vec![(Arc::clone(&self.model), self.mind(cmrt)?)];
+        Simulation::with_cast(&self.scenario, cast)
     }
 
     /// The controller's file with one more trajectory, in the place of one for the same value.

@@ -2,7 +2,7 @@
 
 use svg::node::element::{Circle, Group, Path};
 
-use crate::render::style::{INK, px, rectangle, text};
+use super::style::{INK, px, rectangle, text};
 
 /// From one line of a legend to the next, px.
 const LINE: f64 = 15.0;
