@@ -75,21 +75,20 @@ impl Figures {
     ) -> Result<()> {
         let without = recorded(clip, None, "without anticipation")?;
         let with = recorded(clip, Some(&found.cmrt), "with anticipation")?;
-        let rollout = |recording, judged: &Judged| Rollout {
+        let rollout = |recording, objective, judged: &Judged| Rollout {
             recording,
-            objective: judged.objective,
+            objective,
             cop_norm: judged.cop_norm,
         };
         let [preparation, task, decay] = clip.phases();
-        let before = clip.controller().timeline(0).map_or(0.0, |t| t.time(0.0));
         let mut drawings = learned(&Learned {
             controller: &clip.contract().name,
-            begin: clip.at + before,
+            begin: clip.window()[0],
             phases: [preparation, preparation + task, preparation + task + decay],
             cmrt: &found.cmrt,
             course: &found.course,
-            without: rollout(&without, flat),
-            with: rollout(&with, optimised),
+            without: rollout(&without, found.flat, flat),
+            with: rollout(&with, found.objective, optimised),
         })?;
         let options = FilmOptions {
             frames: Some(FRAMES),

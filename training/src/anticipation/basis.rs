@@ -106,7 +106,7 @@ impl Basis {
         let invalid = |field: &str, found: usize, accepted: String| {
             Err(Error::invalid(&source.origin, field, found, accepted))
         };
-        if width % 2 == 0 || !(1..=MOST_KNOTS).contains(&knots) {
+        if width.is_multiple_of(2) || !(1..=MOST_KNOTS).contains(&knots) {
             let accepted = format!("an odd number from 3 to {}", 2 * MOST_KNOTS + 1);
             return invalid("mean", width, accepted);
         }
@@ -123,7 +123,7 @@ impl Basis {
         }
         let numbers = basis.mean.iter().chain(&basis.deviations);
         let numbers = numbers.chain(basis.components.iter().flatten());
-        if let Some(bad) = numbers.copied().find(|x| !(x.abs() <= 1e6)) {
+        if let Some(bad) = numbers.copied().find(|x| x.is_nan() || x.abs() > 1e6) {
             let accepted = "finite numbers of at most 1e6";
             return Err(Error::invalid(&source.origin, "basis", bad, accepted));
         }
@@ -243,8 +243,8 @@ mod tests {
         assert_eq!(Basis::read(&path).unwrap(), basis);
         for (field, spoil) in [
             ("components", |b: &mut Basis| b.components.clear()),
-            ("components", |b: &mut Basis| drop(b.components[1].pop())),
-            ("deviations", |b: &mut Basis| drop(b.deviations.pop())),
+            ("components", |b: &mut Basis| b.components[1].truncate(1)),
+            ("deviations", |b: &mut Basis| b.deviations.truncate(1)),
             ("mean", |b: &mut Basis| b.mean.clear()),
             ("basis", |b: &mut Basis| b.mean[2] = f64::NAN),
         ] as [(&str, fn(&mut Basis)); 5]

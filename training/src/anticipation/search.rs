@@ -74,6 +74,8 @@ pub struct Keep<'a> {
 pub struct Found {
     /// Evaluations so far.
     pub evaluations: usize,
+    /// The objective without a trajectory, averaged as that of the search.
+    pub flat: f64,
     /// The objective of the trajectory.
     pub objective: f64,
     /// While it is searched the best so far; in the end the best that succeeds from enough perturbed
@@ -101,7 +103,7 @@ pub fn search(
     let first = plan.encoding.trajectory(&start);
     let seed = plan.seed.wrapping_add(OTHER_STARTS);
     let objective = |cmrt: &Cmrt| averaged(clip, Some(cmrt), plan.starts, seed);
-    objective(&first)?;
+    let flat = averaged(clip, None, plan.starts, seed)?.objective;
     let journal = open(clip, plan, keep, &first)?;
     let measure = |point: &[f64]| {
         let evaluation = objective(&plan.encoding.trajectory(point));
@@ -121,6 +123,7 @@ pub fn search(
     };
     let mut found = Found {
         evaluations: 0,
+        flat,
         objective: f64::INFINITY,
         cmrt: first,
         course: Vec::new(),
