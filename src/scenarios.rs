@@ -10,10 +10,22 @@ use aplomb_framework::file::Source;
 use aplomb_framework::scenario::Scenario;
 
 /// The shipped scenarios: name and text.
-pub const SHIPPED: [(&str, &str); 5] = [
+pub const SHIPPED: [(&str, &str); 8] = [
+    (
+        "clips/dodge_tire",
+        include_str!("../scenarios/clips/dodge_tire.ron"),
+    ),
     (
         "clips/fast_bend",
         include_str!("../scenarios/clips/fast_bend.ron"),
+    ),
+    (
+        "clips/hit_tire",
+        include_str!("../scenarios/clips/hit_tire.ron"),
+    ),
+    (
+        "clips/pull_box",
+        include_str!("../scenarios/clips/pull_box.ron"),
     ),
     (
         "clips/slow_bend",

@@ -56,6 +56,9 @@ macro_rules! shipped {
 
 const FILES: &[(&str, &str)] = shipped![
     "clips/bend.ron",
+    "clips/dodge_tire.ron",
+    "clips/hit_tire.ron",
+    "clips/pull_box.ron",
     "learned/balance.boundary.ron",
     "learned/fall.boundary.ron",
     "learned/protective_step.boundary.ron",

@@ -6,6 +6,7 @@
 mod common;
 
 mod boundaries;
+mod characters;
 mod recordings;
 mod repertoires;
 mod scenarios;
