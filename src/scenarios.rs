@@ -9,20 +9,24 @@ use aplomb_framework::error::{Error, Result};
 use aplomb_framework::file::Source;
 use aplomb_framework::scenario::Scenario;
 
+/// Every scenario of the folder under its name.
+macro_rules! shipped {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../scenarios/", $name, ".ron")))),*]
+    };
+}
+
 /// The shipped scenarios: name and text.
-pub const SHIPPED: [(&str, &str); 6] = [
-    (
-        "clips/fast_bend",
-        include_str!("../scenarios/clips/fast_bend.ron"),
-    ),
-    ("clips/kick", include_str!("../scenarios/clips/kick.ron")),
-    (
-        "clips/slow_bend",
-        include_str!("../scenarios/clips/slow_bend.ron"),
-    ),
-    ("push", include_str!("../scenarios/push.ron")),
-    ("standing", include_str!("../scenarios/standing.ron")),
-    ("story", include_str!("../scenarios/story.ron")),
+pub const SHIPPED: &[(&str, &str)] = shipped![
+    "clips/dodge_tire",
+    "clips/fast_bend",
+    "clips/hit_tire",
+    "clips/kick",
+    "clips/pull_box",
+    "clips/slow_bend",
+    "push",
+    "standing",
+    "story",
 ];
 
 /// The folder of the scenarios that `train cmrt` knows by name alone.

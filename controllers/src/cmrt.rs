@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 use crate::balance::BalanceSpec;
 use crate::gains::Gains;
 use crate::momentum::Swing;
-use crate::target::{bounded, overlay};
+use crate::target::{NamedAngles, bounded, overlay};
 use crate::upright::Upright;
 pub use motion::{Key, MOST_KEYS, Motion, Schedule, Timeline};
 pub use spline::Spline;
@@ -51,6 +51,9 @@ pub struct CmrtSpec {
     /// Gains and the pose that is begun with; those of the shipped `balance` if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub balance: Option<BalanceSpec>,
+    /// Angles to begin with where they are not those of the balance's pose, rad.
+    #[serde(default, skip_serializing_if = "NamedAngles::is_empty")]
+    pub begin: NamedAngles,
     /// The motions, in the order of their beginnings.
     pub motions: Vec<Motion>,
 }
@@ -138,7 +141,10 @@ impl CmrtSpec {
         bounded(&place, "com_ahead", balance.com_ahead, -0.2, 0.2)?;
         let parameters = contract.commands.iter().flat_map(|a| &a.parameters);
         let known: Vec<&str> = parameters.map(|p| p.name.as_str()).collect();
-        let mut waypoints = vec![waypoint(model, &upright.reference.pose)];
+        let mut begin = upright.reference.pose.clone();
+        let field = format!("{place}: begin");
+        overlay(model, &self.begin, &field, [-7.0, 7.0], &mut begin)?;
+        let mut waypoints = vec![waypoint(model, &begin)];
         let mut before = 0.0;
         for (i, motion) in self.motions.iter().enumerate() {
             let at = format!("{place}: motions[{i}]");

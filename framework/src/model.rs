@@ -134,8 +134,11 @@ pub struct Model {
 
 impl Model {
     /// The built-in characters by name.
-    pub const BUILT_IN: [(&'static str, &'static str); 1] =
-        [("humanoid", include_str!("../characters/humanoid.ron"))];
+    pub const BUILT_IN: [(&'static str, &'static str); 3] = [
+        ("humanoid", include_str!("../characters/humanoid.ron")),
+        ("lion", include_str!("../characters/lion.ron")),
+        ("sumo", include_str!("../characters/sumo.ron")),
+    ];
 
     /// A built-in character by name, or a character file by path.
     ///

@@ -1,6 +1,7 @@
 //! The skills of the shipped humanoid, each for what it promises.
 #![allow(clippy::unwrap_used)]
 
+mod characters;
 mod pose;
 mod step;
 

@@ -8,6 +8,7 @@ mod common;
 mod boundaries;
 mod expectations;
 mod props;
+mod characters;
 mod recordings;
 mod repertoires;
 mod scenarios;
