@@ -10,10 +10,22 @@ use aplomb_framework::file::Source;
 use aplomb_framework::scenario::Scenario;
 
 /// The shipped scenarios: name and text.
-pub const SHIPPED: [(&str, &str); 5] = [
+pub const SHIPPED: [(&str, &str); 8] = [
+    (
+        "clips/catch_ball",
+        include_str!("../scenarios/clips/catch_ball.ron"),
+    ),
     (
         "clips/fast_bend",
         include_str!("../scenarios/clips/fast_bend.ron"),
+    ),
+    (
+        "clips/punch_bag",
+        include_str!("../scenarios/clips/punch_bag.ron"),
+    ),
+    (
+        "clips/push_dominoes",
+        include_str!("../scenarios/clips/push_dominoes.ron"),
     ),
     (
         "clips/slow_bend",

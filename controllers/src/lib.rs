@@ -56,6 +56,9 @@ macro_rules! shipped {
 
 const FILES: &[(&str, &str)] = shipped![
     "clips/bend.ron",
+    "clips/catch.ron",
+    "clips/punch.ron",
+    "clips/push.ron",
     "learned/balance.boundary.ron",
     "learned/fall.boundary.ron",
     "learned/protective_step.boundary.ron",
