@@ -56,10 +56,13 @@ macro_rules! shipped {
 
 const FILES: &[(&str, &str)] = shipped![
     "clips/bend.ron",
-    "clips/kick.ron",
+    "clips/catch.ron",
     "clips/dodge_tire.ron",
     "clips/hit_tire.ron",
+    "clips/kick.ron",
     "clips/pull_box.ron",
+    "clips/punch.ron",
+    "clips/push.ron",
     "learned/balance.boundary.ron",
     "learned/fall.boundary.ron",
     "learned/protective_step.boundary.ron",

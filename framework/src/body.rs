@@ -142,6 +142,16 @@ impl Body {
             let mut sole = FootContact::default();
             let mut moment = 0.0;
             for pair in narrow_phase.contact_pairs_with(*collider) {
+                // A ball in the air bears no hand.
+                let bears = foot.is_some() || {
+                    let first = pair.collider1 == *collider;
+                    let other = if first {
+                        pair.collider2
+                    } else {
+                        pair.collider1
+                    };
+                    self.bears(other, bodies, colliders, narrow_phase)
+                };
                 each_point(pair, *collider, colliders, dt, |p| {
                     if !p.touches() {
                         return;
@@ -149,7 +159,7 @@ impl Body {
                     contact.touching = true;
                     contact.force[0] += p.force[0];
                     contact.force[1] += p.force[1];
-                    if p.normal_up < SUPPORTING {
+                    if p.normal_up < SUPPORTING || !bears {
                         return;
                     }
                     let at_knee = knee
@@ -176,6 +186,30 @@ impl Body {
             sensors.ground = lowest;
         }
         sensors.derive();
+    }
+
+    /// Whether a thing could carry a link: it is fixed, or touches something besides this character.
+    fn bears(
+        &self,
+        thing: ColliderHandle,
+        bodies: &RigidBodySet,
+        colliders: &ColliderSet,
+        narrow_phase: &NarrowPhase,
+    ) -> bool {
+        let body = colliders[thing].parent().map(|b| &bodies[b]);
+        if !body.is_some_and(RigidBody::is_dynamic) {
+            return true;
+        }
+        let mut pairs = narrow_phase.contact_pairs_with(thing);
+        pairs.any(|pair| {
+            let first = pair.collider1 == thing;
+            let other = if first {
+                pair.collider2
+            } else {
+                pair.collider1
+            };
+            pair.has_any_active_contact() && !self.colliders.contains(&other)
+        })
     }
 
     fn sense_state(&self, bodies: &RigidBodySet, state: &mut State) {

@@ -195,6 +195,27 @@ fn under_the_hands(mass: f64, grip: f64) -> World {
     world
 }
 
+#[test]
+fn a_ball_from_below_bears_hands_only_if_something_bears_it() {
+    for on_a_table in [false, true] {
+        let mut world = under_the_hands(7.0, 0.0);
+        let [x, y] = world.prop_motion(0).position;
+        if on_a_table {
+            let half = [0.2, 0.05];
+            let centre = [0.0, 0.0];
+            world.add_prop(&Prop {
+                shape: Shape::Box { half, centre },
+                mass: 0.0,
+                ..ball(1.0, [x, y - RADIUS - half[1]], [0.0; 2])
+            });
+            world.detect_contacts();
+        }
+        let now = world.sense(0);
+        assert!(now.contacts[now.model.hands[0].link].touching);
+        assert_eq!(now.only_feet_support(), !on_a_table);
+    }
+}
+
 /// Where the tip of a hand is.
 fn tip(world: &mut World) -> [f64; 2] {
     let now = world.sense(0);
