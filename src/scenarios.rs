@@ -17,43 +17,19 @@ macro_rules! shipped {
 }
 
 /// The shipped scenarios: name and text.
-<<<<<<< HEAD
 pub const SHIPPED: &[(&str, &str)] = shipped![
+    "clips/catch_ball",
     "clips/dodge_tire",
     "clips/fast_bend",
     "clips/hit_tire",
     "clips/kick",
     "clips/pull_box",
+    "clips/punch_bag",
+    "clips/push_dominoes",
     "clips/slow_bend",
     "push",
     "standing",
     "story",
-=======
-pub const SHIPPED: [(&str, &str); 8] = [
-    (
-        "clips/catch_ball",
-        include_str!("../scenarios/clips/catch_ball.ron"),
-    ),
-    (
-        "clips/fast_bend",
-        include_str!("../scenarios/clips/fast_bend.ron"),
-    ),
-    (
-        "clips/punch_bag",
-        include_str!("../scenarios/clips/punch_bag.ron"),
-    ),
-    (
-        "clips/push_dominoes",
-        include_str!("../scenarios/clips/push_dominoes.ron"),
-    ),
-    (
-        "clips/slow_bend",
-        include_str!("../scenarios/clips/slow_bend.ron"),
-    ),
-    ("push", include_str!("../scenarios/push.ron")),
-    ("standing", include_str!("../scenarios/standing.ron")),
-    ("story", include_str!("../scenarios/story.ron")),
->>>>>>> clips
 ];
 
 /// The folder of the scenarios that `train cmrt` knows by name alone.

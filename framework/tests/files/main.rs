@@ -6,9 +6,9 @@
 mod common;
 
 mod boundaries;
+mod characters;
 mod expectations;
 mod props;
-mod characters;
 mod recordings;
 mod repertoires;
 mod scenarios;

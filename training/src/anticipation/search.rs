@@ -78,8 +78,8 @@ pub struct Found {
     pub flat: f64,
     /// The objective of the trajectory.
     pub objective: f64,
-    /// While it is searched the best so far; in the end the best that succeeds from enough perturbed
-    /// starts, or else the best.
+    /// While it is searched the best so far; in the end, of the last improvements, the best that
+    /// succeeds from enough perturbed starts, or else the one that succeeds from the most.
     pub cmrt: Cmrt,
     /// (evaluations, best objective) after each generation.
     pub course: Vec<(usize, f64)>,
@@ -147,9 +147,14 @@ pub fn search(
     });
     written?;
     // A trajectory at the edge of falling may have the least objective of all.
+    let mut most = None;
     for (objective, cmrt) in improvements.into_iter().rev().take(TRIED) {
-        if successes(clip, Some(&cmrt), seed)? >= ENOUGH {
+        let count = successes(clip, Some(&cmrt), seed)?;
+        if most.is_none_or(|m| count > m) {
+            most = Some(count);
             (found.objective, found.cmrt) = (objective, cmrt);
+        }
+        if count >= ENOUGH {
             break;
         }
     }
