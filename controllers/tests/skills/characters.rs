@@ -41,13 +41,13 @@ fn every_character_stands_and_takes_a_push() {
 fn a_motion_may_begin_with_a_pose_of_its_own() {
     let file = |begin: &str| {
         format!(
-            r#"(kind: "cmrt", contract: (name: "x", weight: 1), spec: (
+            r#"(kind: "cmrt", contract: (name: "x", weight: 1, precondition: Always), spec: (
             begin: {begin}, motions: [(length: 2.0, preparation: 1.0, task: 0.5, keys: [])]))"#
         )
     };
     assert!(built(&file(r#"{"shoulder": 1.2}"#)).is_ok());
     let told = built(&file(r#"{"shoulders": 1.2}"#)).err().unwrap();
-    assert!(told.contains("'shoulder'"), "{told}");
+    assert!(told.contains("'shoulders'"), "{told}");
     let told = built(&file(r#"{"shoulder": 9.0}"#)).err().unwrap();
     assert!(told.contains("-7 to 7"), "{told}");
 }
