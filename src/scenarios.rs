@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn every_shipped_scenario_is_valid_and_carries_its_name() {
         for (name, _) in SHIPPED {
-            assert_eq!(load(name).unwrap().name, name);
+            assert_eq!(load(name).unwrap().name, *name);
         }
     }
 
