@@ -20,6 +20,7 @@ macro_rules! shipped {
 pub const SHIPPED: &[(&str, &str)] = shipped![
     "clips/catch_ball",
     "clips/dodge_tire",
+    "clips/duck_twice",
     "clips/fast_bend",
     "clips/hit_tire",
     "clips/kick",

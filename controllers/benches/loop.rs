@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use aplomb_controllers::cmrt::{Cmrt, Spline};
 use aplomb_controllers::gains::Gains;
 use aplomb_controllers::momentum::{Formulation, Momentum, Reference};
 use aplomb_controllers::registry;
@@ -48,6 +49,29 @@ fn pushed() -> Sensors {
     simulation.push(0, "torso", 25.0).unwrap();
     simulation.run(0.12);
     simulation.sensors(0).clone()
+}
+
+#[divan::bench(sample_size = 1000)]
+fn reference_trajectory(bencher: Bencher) {
+    let spline = Spline::new(&Cmrt {
+        displacements: vec![0.02, 0.05, -0.03, 0.01],
+        ..Cmrt::flat(2.6, 4)
+    });
+    bencher.bench_local(|| black_box(&spline).at(black_box(1.7)));
+}
+
+/// The humanoid in the middle of a fast bend.
+#[divan::bench(sample_count = 20, sample_size = 1)]
+fn thousand_steps_bending(bencher: Bencher) {
+    let mut bent = scenario(0.0, 0.0);
+    bent.duration = 3.0;
+    let mut simulation = after(0.0, &bent);
+    simulation.command(0, "bend").unwrap();
+    simulation.run(0.8);
+    bencher
+        .counter(ItemsCount::new(STEPS))
+        .with_inputs(|| simulation.clone())
+        .bench_local_refs(|s| (0..STEPS).for_each(|_| s.step()));
 }
 
 #[divan::bench(sample_size = 1000)]

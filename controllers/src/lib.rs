@@ -58,6 +58,7 @@ const FILES: &[(&str, &str)] = shipped![
     "clips/bend.ron",
     "clips/catch.ron",
     "clips/dodge_tire.ron",
+    "clips/duck_twice.ron",
     "clips/hit_tire.ron",
     "clips/kick.ron",
     "clips/pull_box.ron",

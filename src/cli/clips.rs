@@ -67,7 +67,7 @@ impl ClipsArgs {
         };
         let threads = self.jobs.threads()?;
         let row = |name: &String| {
-            let clip = load(name, &self.set, 0)?;
+            let clip = load(name, &self.set, None)?;
             threads.install(|| Row::new(&clip, self.seed))
         };
         let rows = names.iter().map(row).collect::<Result<Vec<Row>>>()?;
@@ -82,7 +82,7 @@ impl ClipsArgs {
 }
 
 /// The clip of this name with parameters set, and which of its motions is optimised.
-pub(super) fn load(name: &str, set: &[Setting], motion: usize) -> Result<Clip> {
+pub(super) fn load(name: &str, set: &[Setting], motion: Option<usize>) -> Result<Clip> {
     let mut scenario = aplomb::scenarios::load_clip(name)?;
     for Setting { key, value } in set {
         let option = || format!("--set {key}={value}");

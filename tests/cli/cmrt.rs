@@ -141,7 +141,7 @@ fn a_basis_of_a_family_serves_a_search_in_few_dimensions() {
         &["train", "cmrt", "dip_clip.ron", "--basis", "bad.ron"],
         &["train", "basis", "dip_clip.ron", "--over", "duration"],
         &["train", "basis", "dip_clip.ron", "--over", "duration=2..1"],
-        &["train", "basis", "dip_clip.ron", "--over", "mass=1..2"],
+        &["train", "basis", "dip_clip.ron", "--over", "speed=1..2"],
     ];
     insta::assert_snapshot!(refusals(at, calls));
 }
@@ -217,4 +217,31 @@ fn help_of_train_cmrt_and_basis_and_clips() {
     insta::assert_snapshot!("help_of_train_cmrt", help("train cmrt --help"));
     insta::assert_snapshot!("help_of_train_basis", help("train basis --help"));
     insta::assert_snapshot!("help_of_clips", help("clips --help"));
+}
+
+#[test]
+fn every_shipped_clip_shows_what_it_expects() {
+    for clip in aplomb::scenarios::clips() {
+        let call = called(&format!("run clips/{clip}")).output().unwrap();
+        let told = String::from_utf8_lossy(&call.stderr).into_owned();
+        assert_eq!(call.status.code(), Some(0), "{clip}: {told}");
+    }
+}
+
+#[test]
+fn who_expected_a_lighter_and_slower_ball_falls_and_rises() {
+    let call = called("run clips/catch_ball --set mass=15 --set speed=8 --duration 9 --json");
+    let output = { call }.output().unwrap();
+    // The ball was not held, as the scenario expects.
+    assert_eq!(output.status.code(), Some(1));
+    let run: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let events = run["events"].as_array().unwrap();
+    let active: Vec<&str> = events.iter().filter_map(|e| e["to"].as_str()).collect();
+    assert_eq!(
+        (active[0], active[1]),
+        ("catch", "protective_step"),
+        "{active:?}"
+    );
+    assert!(active.contains(&"fall"), "{active:?}");
+    assert_eq!(run["end"]["standing"], true, "{active:?}");
 }

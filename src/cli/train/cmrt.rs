@@ -213,7 +213,7 @@ impl SearchArgs {
     /// The same with further parameters.
     pub(super) fn clip_with(&self, name: &str, further: &[Setting]) -> Result<Clip> {
         let all: Vec<Setting> = self.set.iter().chain(further).cloned().collect();
-        clips::load(name, &all, self.motion as usize)
+        clips::load(name, &all, Some(self.motion as usize))
     }
 
     /// All knots and control points.

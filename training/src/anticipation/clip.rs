@@ -40,11 +40,12 @@ pub struct Clip {
 }
 
 impl Clip {
-    /// The clip of a scenario with its parameters set, and which of its motions is optimised.
+    /// The clip of a scenario with its parameters set, and which of its motions is optimised, the last
+    /// if none is given.
     ///
     /// # Errors
     /// No such motion; no command, or one to a controller of another kind; an invalid repertoire or controller.
-    pub fn new(scenario: Scenario, motion: usize, registry: &Registry) -> Result<Self> {
+    pub fn new(scenario: Scenario, motion: Option<usize>, registry: &Registry) -> Result<Self> {
         let role = &scenario.characters[0];
         let model = Model::load(&role.character)?;
         let repertoire = role.repertoire.as_deref().unwrap_or(&model.name);
@@ -68,6 +69,7 @@ impl Clip {
             .clone()
             .controller(skill.contract.clone(), &model)?
             .commanded(&command)?;
+        let motion = motion.unwrap_or(spec.motions.len().saturating_sub(1));
         let Some(optimised) = spec.motions.get(motion) else {
             let accepted = format!("0 to {}", spec.motions.len().saturating_sub(1));
             return Err(Error::invalid(skill.name(), "motion", motion, accepted));
@@ -148,12 +150,16 @@ impl Clip {
         aplomb_controllers::cmrt::interpolated(&self.spec.motions[self.motion].cmrts, self.value)
     }
 
-    /// The repertoire with the motion along another trajectory, or none.
+    /// The repertoire with the motion along another trajectory; with none, no motion has one.
     ///
     /// # Errors
     /// What makes a repertoire invalid.
     pub fn mind(&self, cmrt: Option<Cmrt>) -> Result<Supervisor> {
-        let controller = self.controller.clone().with_cmrt(self.motion, cmrt);
+        let own = self.controller.clone();
+        let controller = match cmrt {
+            Some(cmrt) => own.with_cmrt(self.motion, Some(cmrt)),
+            None => (0..self.spec.motions.len()).fold(own, |c, i| c.with_cmrt(i, None)),
+        };
         self.skill.mind.with_replaced(controller.clone_box())
     }
 
