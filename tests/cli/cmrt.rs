@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 use crate::{called, refusals};
 
-/// A short bow with the arms ahead.
+/// A short deep bow with the arms ahead.
 const CLIP: &str = r#"(
     kind: "cmrt",
     contract: (
@@ -19,7 +19,7 @@ const CLIP: &str = r#"(
     spec: (motions: [(
         length: 0.6, preparation: 0.2, task: 0.3,
         timed_by: Some("duration"), parameter: Some("duration"),
-        keys: [(from: 1.0, to: 2.0, pose: {"waist": -0.5, "shoulder": 1.0})],
+        keys: [(from: 1.0, to: 2.0, pose: {"waist": -1.2, "shoulder": 1.5})],
     )]),
 )"#;
 const REPERTOIRE: &str = r#"(name: "r", fallback: "rest", controllers: [
@@ -120,8 +120,8 @@ fn a_basis_of_a_family_serves_a_search_in_few_dimensions() {
     let at = folder.path();
     let basis = told(
         at,
-        "train basis dip_clip.ron --over duration=0.2..0.4 --count 3 --components 2 \
-         --evaluations 11 --starts 0 --out b.ron",
+        "train basis dip_clip.ron --over duration=0.2..0.4 --count 3 --components 1 --knots 1 \
+         --evaluations 41 --starts 0 --seed 1 --out b.ron",
     );
     assert_eq!(basis["values"].as_array().unwrap().len(), 3);
     let explained: f64 = basis["explained"]
@@ -135,7 +135,8 @@ fn a_basis_of_a_family_serves_a_search_in_few_dimensions() {
         at,
         &format!("{SEARCH} --basis b.ron --evaluations 11 --out r2.ron"),
     );
-    assert_eq!(reduced["dimensions"], 2);
+    assert_eq!(reduced["dimensions"], 1);
+    assert_eq!(reduced["times"].as_array().unwrap().len(), 1);
     fs::write(at.join("bad.ron"), "(clip: \"x\")").unwrap();
     let calls: &[&[&str]] = &[
         &["train", "cmrt", "dip_clip.ron", "--basis", "bad.ron"],

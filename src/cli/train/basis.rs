@@ -124,6 +124,7 @@ impl BasisArgs {
         for i in 0..self.count {
             let part = i as f64 / (self.count - 1) as f64;
             let value = self.over.low + part * (self.over.high - self.over.low);
+            let value = (1e9 * value).round() / 1e9;
             let found = threads.install(|| self.member(i, value, family.last(), &file, &stop))?;
             ensure!(
                 work::going_on(&stop).is_continue(),
