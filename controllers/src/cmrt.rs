@@ -10,7 +10,10 @@
 
 mod motion;
 mod spline;
+#[cfg(test)]
+mod tests;
 mod trajectory;
+mod waypoint;
 
 use std::sync::Arc;
 
@@ -18,12 +21,10 @@ use aplomb_framework::command::Command;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::controller::{Controller, Progress};
 use aplomb_framework::file::Source;
-use aplomb_framework::kinematics::Kinematics;
 use aplomb_framework::model::Model;
 use aplomb_framework::registry::{ControllerFile, Spec};
 use aplomb_framework::sensors::Sensors;
-use aplomb_framework::state::State;
-use aplomb_framework::{Error, Result, simulation};
+use aplomb_framework::{Error, Result};
 use serde::{Deserialize, Serialize};
 
 use crate::balance::BalanceSpec;
@@ -34,6 +35,7 @@ use crate::upright::Upright;
 pub use motion::{Key, MOST_KEYS, Motion, Schedule, Timeline};
 pub use spline::Spline;
 pub use trajectory::{Cmrt, FARTHEST, LEAST_GAP, MOST_KNOTS, interpolated, validate};
+use waypoint::{Waypoint, foot_named, way, waypoint};
 
 /// At most this many motions in a row.
 pub const MOST_MOTIONS: usize = 16;
@@ -56,36 +58,6 @@ pub struct CmrtSpec {
     pub begin: NamedAngles,
     /// The motions, in the order of their beginnings.
     pub motions: Vec<Motion>,
-}
-
-/// A pose to go to.
-#[derive(Debug, Clone)]
-struct Waypoint {
-    pose: Vec<f64>,
-    /// Pitch of the root with a foot flat, rad.
-    pitch: f64,
-    /// Height of the centre of mass, m.
-    height: f64,
-    /// Place of a foot that is off the ground.
-    lifted: Option<usize>,
-    /// Place of its motion, and when in it, in phases.
-    motion: usize,
-    from: f64,
-    to: f64,
-    /// The same in s after the beginning, since the last [`Controller::enter`].
-    times: [f64; 2],
-}
-
-/// A place on the way from one pose to the next.
-#[derive(Debug, Clone, Copy)]
-struct Way {
-    from: usize,
-    to: usize,
-    /// Part of the way, 0 to 1.
-    eased: f64,
-    /// Its first and second derivative, 1/s and 1/s².
-    rate: f64,
-    acceleration: f64,
 }
 
 /// The controller.
@@ -195,47 +167,6 @@ fn shipped_balance() -> Result<BalanceSpec> {
     Source::new(source.origin, file.spec.get_ron()).parse()
 }
 
-fn foot_named(model: &Model, link: &str) -> Result<usize> {
-    let link = model.link_index(link)?;
-    let name = |l: usize| model.links[l].name.as_str();
-    let feet = || model.feet.iter().map(|f| f.link);
-    feet()
-        .position(|f| f == link)
-        .ok_or_else(|| Error::unknown("foot", name(link), feet().map(name)))
-}
-
-/// A pose on a flat foot: of the feet the one that is lowest.
-fn waypoint(model: &Model, pose: &[f64]) -> Waypoint {
-    let mut state = State::standing(model);
-    state.q[3..].copy_from_slice(pose);
-    let mut kinematics = Kinematics::new(model);
-    let mut best: Option<(f64, f64, f64)> = None;
-    for foot in &model.feet {
-        state.q[2] = 0.0;
-        kinematics.update(model, &state);
-        // Turned so that this foot's sole is level.
-        state.q[2] = -kinematics.links[foot.link].angle;
-        kinematics.update(model, &state);
-        let sole = kinematics.point(foot.link, foot.toe)[1];
-        if best.is_none_or(|(lowest, ..)| sole < lowest) {
-            simulation::put_on_ground(model, &mut state, 0.0);
-            kinematics.update(model, &state);
-            best = Some((sole, state.q[2], kinematics.com[1]));
-        }
-    }
-    let (_, pitch, height) = best.unwrap_or((0.0, 0.0, model.standing_com()[1]));
-    Waypoint {
-        pose: pose.to_vec(),
-        pitch: aplomb_framework::state::wrapped(pitch),
-        height,
-        lifted: None,
-        motion: 0,
-        from: 0.0,
-        to: 0.0,
-        times: [0.0; 2],
-    }
-}
-
 impl CmrtController {
     /// s from the beginning of the first motion to the end of the last, as last commanded.
     #[must_use]
@@ -264,35 +195,13 @@ impl CmrtController {
 
     /// The reference pose `elapsed` s after the beginning, rad, one a joint.
     pub fn pose_at(&self, elapsed: f64, pose: &mut [f64]) {
-        let way = self.way(elapsed);
+        let way = way(&self.waypoints, elapsed);
         let ends = self.waypoints[way.from]
             .pose
             .iter()
             .zip(&self.waypoints[way.to].pose);
         for (angle, (a, b)) in pose.iter_mut().zip(ends) {
             *angle = a + way.eased * (b - a);
-        }
-    }
-
-    /// Where between two poses the reference is, by smoothstep.
-    fn way(&self, elapsed: f64) -> Way {
-        let later = self.waypoints.iter().skip(1);
-        let to = later.take_while(|w| w.times[0] <= elapsed).count();
-        let [begin, end] = self.waypoints[to].times;
-        let span = (end - begin).max(1e-3);
-        let u = if to == 0 {
-            1.0
-        } else {
-            (elapsed - begin) / span
-        };
-        let moving = f64::from(u8::from(u < 1.0));
-        let u = u.min(1.0);
-        Way {
-            from: to.saturating_sub(1),
-            to,
-            eased: u * u * (3.0 - 2.0 * u),
-            rate: moving * 6.0 * u * (1.0 - u) / span,
-            acceleration: moving * (6.0 - 12.0 * u) / (span * span),
         }
     }
 
@@ -339,7 +248,7 @@ impl CmrtController {
             let step = GLIDE * passed;
             self.middle += (centre + self.com_ahead - self.middle).clamp(-step, step);
         }
-        let way = self.way(t);
+        let way = way(&self.waypoints, t);
         let (from, to) = (&self.waypoints[way.from], &self.waypoints[way.to]);
         let reference = &mut self.upright.reference;
         for (j, (a, b)) in from.pose.iter().zip(&to.pose).enumerate() {
