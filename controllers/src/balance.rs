@@ -20,10 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::gains::Gains;
 use crate::momentum::Formulation;
 use crate::target::{NamedAngles, bounded};
-use crate::upright::Upright;
-
-/// How fast the reference centre of mass moves, m/s.
-const GLIDE: f64 = 0.3;
+use crate::upright::{GLIDE, Upright, glided};
 
 /// Parameters of [`Balance`] in a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -66,20 +63,31 @@ pub struct Balance {
     climb: Option<f64>,
 }
 
+impl BalanceSpec {
+    /// Momentum control with its gains and pose; `place` names the controller in messages.
+    ///
+    /// # Errors
+    /// Numbers out of bounds, unknown joints.
+    pub(crate) fn upright(&self, place: &str, model: &Arc<Model>) -> Result<Upright> {
+        let upright = Upright::new(
+            place,
+            model,
+            self.formulation,
+            self.gains.clone(),
+            &self.pose,
+            &self.joint_weights,
+        )?;
+        bounded(place, "com_ahead", self.com_ahead, -0.2, 0.2)?;
+        Ok(upright)
+    }
+}
+
 impl Spec for BalanceSpec {
     const KIND: &'static str = "balance";
 
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
         let place = contract.name.clone();
-        let upright = Upright::new(
-            &place,
-            model,
-            self.formulation,
-            self.gains,
-            &self.pose,
-            &self.joint_weights,
-        )?;
-        bounded(&place, "com_ahead", self.com_ahead, -0.2, 0.2)?;
+        let upright = self.upright(&place, model)?;
         bounded(&place, "climb", self.climb.unwrap_or(1.0), 0.01, 10.0)?;
         Ok(Box::new(Balance {
             upright,
@@ -115,7 +123,7 @@ impl Controller for Balance {
                 Some(climb) => top.min(y + climb * passed),
                 None => top,
             };
-            self.upright.reference.com = [x + (goal - x).clamp(-step, step), y];
+            self.upright.reference.com = [glided(x, goal, step), y];
         }
         self.upright.act(now, torques);
     }

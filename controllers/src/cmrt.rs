@@ -17,6 +17,7 @@ mod waypoint;
 
 use std::sync::Arc;
 
+use aplomb_framework::Result;
 use aplomb_framework::command::Command;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::controller::{Controller, Progress};
@@ -24,14 +25,13 @@ use aplomb_framework::file::Source;
 use aplomb_framework::model::Model;
 use aplomb_framework::registry::{ControllerFile, Spec};
 use aplomb_framework::sensors::Sensors;
-use aplomb_framework::{Error, Result};
 use serde::{Deserialize, Serialize};
 
 use crate::balance::BalanceSpec;
 use crate::gains::Gains;
 use crate::momentum::Swing;
 use crate::target::{NamedAngles, bounded, overlay};
-use crate::upright::Upright;
+use crate::upright::{GLIDE, Upright, glided};
 pub use motion::{Key, MOST_KEYS, Motion, Schedule, Timeline};
 pub use spline::Spline;
 pub use trajectory::{Cmrt, FARTHEST, LEAST_GAP, MOST_KNOTS, interpolated, validate};
@@ -39,9 +39,6 @@ use waypoint::{Waypoint, foot_named, way, waypoint};
 
 /// At most this many motions in a row.
 pub const MOST_MOTIONS: usize = 16;
-
-/// How fast the reference follows the middle of the base of support, m/s.
-const GLIDE: f64 = 0.3;
 
 /// Balance as it is shipped, whose gains serve every clip and character.
 const BALANCE: &str = include_str!("../skills/balance.ron");
@@ -102,17 +99,7 @@ impl CmrtSpec {
             Some(balance) => balance,
             None => shipped_balance()?,
         };
-        let upright = Upright::new(
-            &place,
-            model,
-            balance.formulation,
-            balance.gains.clone(),
-            &balance.pose,
-            &balance.joint_weights,
-        )?;
-        bounded(&place, "com_ahead", balance.com_ahead, -0.2, 0.2)?;
-        let parameters = contract.commands.iter().flat_map(|a| &a.parameters);
-        let known: Vec<&str> = parameters.map(|p| p.name.as_str()).collect();
+        let upright = balance.upright(&place, model)?;
         let mut begin = upright.reference.pose.clone();
         let field = format!("{place}: begin");
         overlay(model, &self.begin, &field, [-7.0, 7.0], &mut begin)?;
@@ -123,11 +110,7 @@ impl CmrtSpec {
             motion.validate(&at)?;
             bounded(&at, "start", motion.start, before, 3600.0)?;
             before = motion.start;
-            for name in motion.timed_by.iter().chain(&motion.parameter) {
-                if !known.contains(&name.as_str()) {
-                    return Err(Error::unknown("parameter", name, known).at(&at));
-                }
-            }
+            contract.check_parameters(motion.timed_by.iter().chain(&motion.parameter), &at)?;
             for (k, key) in motion.keys.iter().enumerate() {
                 let mut pose = waypoints[waypoints.len() - 1].pose.clone();
                 let field = format!("{at}: keys[{k}].pose");
@@ -164,7 +147,7 @@ impl CmrtSpec {
 fn shipped_balance() -> Result<BalanceSpec> {
     let source = Source::new("built-in skills/balance.ron", BALANCE);
     let file: ControllerFile = source.parse()?;
-    Source::new(source.origin, file.spec.get_ron()).parse()
+    file.parameters(&source.origin)
 }
 
 impl CmrtController {
@@ -246,7 +229,7 @@ impl CmrtController {
         let t = self.elapsed;
         if let Some(centre) = now.support_centre() {
             let step = GLIDE * passed;
-            self.middle += (centre + self.com_ahead - self.middle).clamp(-step, step);
+            self.middle = glided(self.middle, centre + self.com_ahead, step);
         }
         let way = way(&self.waypoints, t);
         let (from, to) = (&self.waypoints[way.from], &self.waypoints[way.to]);
@@ -313,27 +296,19 @@ impl Controller for CmrtController {
     }
 
     fn progress(&self, now: &Sensors, elapsed: f64, kept: Option<f64>) -> Progress {
-        let contract = &self.contract;
-        if let Some(refusal) = contract.expected.first_failure(now) {
-            return Progress::Failed(format!("expected {refusal}"));
-        }
-        // Success before the motions are over would cut them short.
-        if elapsed >= self.length() && kept.is_some_and(|k| k >= contract.hold) {
-            return Progress::Succeeded;
-        }
-        if elapsed > contract.patience {
-            return Progress::Failed(format!("not done after {} s", contract.patience));
-        }
-        Progress::Running
+        // Success before the motions are over would cut them short, and what is not as expected is
+        // none.
+        let over = elapsed >= self.length() && self.contract.expected.holds(now);
+        let kept = kept.filter(|_| over);
+        self.contract.progress(now, elapsed, kept)
     }
 
     fn obey(&mut self, command: &Command) -> Result<bool> {
-        let Some(answer) = self.contract.answer(command) else {
-            return Ok(false);
-        };
-        answer.check(command)?;
-        self.command = Some(command.clone());
-        Ok(true)
+        let answers = self.contract.answers(command)?;
+        if answers {
+            self.command = Some(command.clone());
+        }
+        Ok(answers)
     }
 
     fn grips(&self) -> bool {

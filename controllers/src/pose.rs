@@ -7,6 +7,7 @@
 
 use std::sync::Arc;
 
+use aplomb_framework::Result;
 use aplomb_framework::condition::Condition;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::controller::{Controller, Progress};
@@ -14,7 +15,6 @@ use aplomb_framework::feature::Feature;
 use aplomb_framework::model::Model;
 use aplomb_framework::registry::Spec;
 use aplomb_framework::sensors::Sensors;
-use aplomb_framework::{Error, Result};
 use serde::{Deserialize, Serialize};
 
 use crate::servo::{Servo, smoothstep};
@@ -211,13 +211,7 @@ impl Spec for PoseSpec {
                 feedback.push((joint, feature.clone(), rule.gain));
             }
         }
-        let parameters = contract.commands.iter().flat_map(|a| &a.parameters);
-        let known: Vec<&str> = parameters.map(|p| p.name.as_str()).collect();
-        for name in self.scaled_by.iter().chain(&self.slowed_by) {
-            if !known.contains(&name.as_str()) {
-                return Err(Error::unknown("parameter", name, known).at(&place));
-            }
-        }
+        contract.check_parameters(self.scaled_by.iter().chain(&self.slowed_by), &place)?;
         Ok(Box::new(PoseController {
             servo: Servo::new(model, 1.0, self.damping),
             scale: 1.0,
@@ -318,10 +312,9 @@ impl Controller for PoseController {
     }
 
     fn obey(&mut self, command: &aplomb_framework::command::Command) -> Result<bool> {
-        let Some(answer) = self.contract.answer(command) else {
+        if !self.contract.answers(command)? {
             return Ok(false);
-        };
-        answer.check(command)?;
+        }
         let parameter = |name: &Option<String>| {
             name.as_ref()
                 .map_or(1.0, |n| self.contract.parameter(Some(command), n, 1.0))

@@ -16,6 +16,14 @@ use crate::momentum::{Formulation, Momentum, Reference};
 use crate::servo::Servo;
 use crate::target::{NamedAngles, overlay};
 
+/// How fast the reference centre of mass follows the base of support, m/s.
+pub(crate) const GLIDE: f64 = 0.3;
+
+/// A number on its way to a goal, by at most `step`.
+pub(crate) fn glided(x: f64, goal: f64, step: f64) -> f64 {
+    x + (goal - x).clamp(-step, step)
+}
+
 /// Momentum control with its reference.
 #[derive(Debug, Clone)]
 pub(crate) struct Upright {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use rapier2d::prelude::*;
 
-use crate::contact::each_point;
+use crate::contact::{each_point, other};
 use crate::kinematics::{Kinematics, turned};
 use crate::model::{Model, Point, Shape};
 use crate::sensors::{FootContact, LinkContact, Sensors};
@@ -143,15 +143,8 @@ impl Body {
             let mut moment = 0.0;
             for pair in narrow_phase.contact_pairs_with(*collider) {
                 // A ball in the air bears no hand.
-                let bears = foot.is_some() || {
-                    let first = pair.collider1 == *collider;
-                    let other = if first {
-                        pair.collider2
-                    } else {
-                        pair.collider1
-                    };
-                    self.bears(other, bodies, colliders, narrow_phase)
-                };
+                let thing = other(pair, *collider);
+                let bears = foot.is_some() || self.bears(thing, bodies, colliders, narrow_phase);
                 each_point(pair, *collider, colliders, dt, |p| {
                     if !p.touches() {
                         return;
@@ -202,13 +195,7 @@ impl Body {
         }
         let mut pairs = narrow_phase.contact_pairs_with(thing);
         pairs.any(|pair| {
-            let first = pair.collider1 == thing;
-            let other = if first {
-                pair.collider2
-            } else {
-                pair.collider1
-            };
-            pair.has_any_active_contact() && !self.colliders.contains(&other)
+            pair.has_any_active_contact() && !self.colliders.contains(&other(pair, thing))
         })
     }
 

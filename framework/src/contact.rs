@@ -30,6 +30,15 @@ impl ContactPoint {
     }
 }
 
+/// The collider of a pair that is not this one.
+pub(crate) fn other(pair: &ContactPair, than: ColliderHandle) -> ColliderHandle {
+    if pair.collider1 == than {
+        pair.collider2
+    } else {
+        pair.collider1
+    }
+}
+
 /// Visits every contact point of a pair, seen from one of its colliders.
 pub(crate) fn each_point(
     pair: &ContactPair,

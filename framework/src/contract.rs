@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::command::{Answer, Command};
 use crate::condition::Condition;
+use crate::controller::Progress;
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::sensors::Sensors;
@@ -111,6 +112,49 @@ impl Contract {
             weight * self.precondition.probability(now)
         } else {
             weight
+        }
+    }
+
+    /// How a controller is getting on, `elapsed` s after it took over. `kept` is for how many seconds
+    /// the post-condition, or what else the controller counts as success, has held without a break.
+    #[must_use]
+    pub fn progress(&self, now: &Sensors, elapsed: f64, kept: Option<f64>) -> Progress {
+        if kept.is_some_and(|k| k >= self.hold) {
+            Progress::Succeeded
+        } else if let Some(refusal) = self.expected.first_failure(now) {
+            Progress::Failed(format!("expected {refusal}"))
+        } else if elapsed > self.patience {
+            Progress::Failed(format!("not done after {} s", self.patience))
+        } else {
+            Progress::Running
+        }
+    }
+
+    /// Whether it answers to a command.
+    ///
+    /// # Errors
+    /// The command's name is known but a parameter is not, or is out of its range.
+    pub fn answers(&self, command: &Command) -> Result<bool> {
+        match self.answer(command) {
+            Some(answer) => answer.check(command).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// Checks that names are parameters of its commands; `place` is for messages.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] with the parameters that there are.
+    pub fn check_parameters<'a>(
+        &self,
+        names: impl IntoIterator<Item = &'a String>,
+        place: &str,
+    ) -> Result<()> {
+        let parameters = self.commands.iter().flat_map(|a| &a.parameters);
+        let known: Vec<&str> = parameters.map(|p| p.name.as_str()).collect();
+        match names.into_iter().find(|n| !known.contains(&n.as_str())) {
+            Some(unknown) => Err(Error::unknown("parameter", unknown, known).at(place)),
+            None => Ok(()),
         }
     }
 

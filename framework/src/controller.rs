@@ -49,16 +49,7 @@ pub trait Controller: Debug + Send + Sync {
     /// How it is getting on, `elapsed` s after [`enter`](Self::enter). `kept` is for how many
     /// seconds the post-condition has held without a break; none if it does not hold.
     fn progress(&self, now: &Sensors, elapsed: f64, kept: Option<f64>) -> Progress {
-        let contract = self.contract();
-        if kept.is_some_and(|k| k >= contract.hold) {
-            Progress::Succeeded
-        } else if let Some(refusal) = contract.expected.first_failure(now) {
-            Progress::Failed(format!("expected {refusal}"))
-        } else if elapsed > contract.patience {
-            Progress::Failed(format!("not done after {} s", contract.patience))
-        } else {
-            Progress::Running
-        }
+        self.contract().progress(now, elapsed, kept)
     }
 
     /// Takes a command that it answers to, before it is entered for it. Returns whether it answers
@@ -67,10 +58,7 @@ pub trait Controller: Debug + Send + Sync {
     /// # Errors
     /// The command's name is known but a parameter is not, or is out of its range.
     fn obey(&mut self, command: &Command) -> Result<bool> {
-        match self.contract().answer(command) {
-            Some(answer) => answer.check(command).map(|()| true),
-            None => Ok(false),
-        }
+        self.contract().answers(command)
     }
 
     /// The centre of mass that it aims at, world x, m, if it aims at one; for recordings.

@@ -12,7 +12,7 @@
 use rapier2d::prelude::*;
 
 use crate::body::Body;
-use crate::contact::each_point;
+use crate::contact::{each_point, other};
 use crate::fastening::Fastening;
 use crate::model::Model;
 use crate::prop::Placed;
@@ -101,12 +101,8 @@ impl Grips {
             let own = body.collider(hand.link);
             let mut nearest: Option<(f64, usize, [f64; 2])> = None;
             for pair in narrow_phase.contact_pairs_with(own) {
-                let other = if pair.collider1 == own {
-                    pair.collider2
-                } else {
-                    pair.collider1
-                };
-                let Some(prop) = props.iter().position(|p| p.collider == other) else {
+                let thing = other(pair, own);
+                let Some(prop) = props.iter().position(|p| p.collider == thing) else {
                     continue;
                 };
                 let shunned = |(p, until): (usize, u64)| p == prop && step < until;

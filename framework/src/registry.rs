@@ -40,6 +40,19 @@ pub struct ControllerFile {
     pub spec: Box<RawValue>,
 }
 
+impl ControllerFile {
+    /// Its parameters; `origin` is what errors call it.
+    ///
+    /// # Errors
+    /// Another kind of controller, or bad syntax.
+    pub fn parameters<S: Spec>(&self, origin: &str) -> Result<S> {
+        if self.kind != S::KIND {
+            return Err(Error::unknown("kind", &self.kind, [S::KIND]));
+        }
+        Source::new(origin, self.spec.get_ron()).parse()
+    }
+}
+
 fn empty() -> Box<RawValue> {
     RawValue::from_ron("()")
         .map(ToOwned::to_owned)

@@ -11,6 +11,7 @@ use serde::Deserialize;
 use crate::error::{Error, Result};
 pub use crate::expectation::{Expectation, Quantity};
 use crate::file::Source;
+use crate::model::Model;
 pub use crate::scenario_number::{Number, Parameter};
 pub use crate::scenario_props::{HingeEntry, PropEntry};
 use crate::world::Settings;
@@ -94,6 +95,14 @@ impl Happening {
 
 fn push_duration() -> f64 {
     PUSH_DURATION
+}
+
+impl Role {
+    /// Its repertoire: the one that is named, or the character's own.
+    #[must_use]
+    pub fn repertoire<'a>(&'a self, model: &'a Model) -> &'a str {
+        self.repertoire.as_deref().unwrap_or(&model.name)
+    }
 }
 
 /// A validated scenario.

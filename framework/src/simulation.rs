@@ -58,7 +58,7 @@ impl Simulation {
         let mut cast = Vec::with_capacity(scenario.characters.len());
         for role in &scenario.characters {
             let model = Model::load(&role.character)?;
-            let repertoire = role.repertoire.as_deref().unwrap_or(&model.name);
+            let repertoire = role.repertoire(&model);
             let mind = repertoire::load(repertoire, registry, &model)?;
             cast.push((model, mind));
         }

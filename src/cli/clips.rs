@@ -5,12 +5,14 @@
 use std::collections::BTreeMap;
 use std::io::Write;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use aplomb::training::anticipation::clip::Clip;
 use aplomb::training::anticipation::objective::Judged;
 use clap::Args;
 use serde::Serialize;
 
+use super::output::write_json;
+use super::scene::set_all;
 use super::values::{Setting, whole};
 use super::{Verdict, work};
 
@@ -72,8 +74,7 @@ impl ClipsArgs {
         };
         let rows = names.iter().map(row).collect::<Result<Vec<Row>>>()?;
         if self.json {
-            serde_json::to_writer(&mut *out, &rows)?;
-            writeln!(out)?;
+            write_json(out, &rows)?;
         } else {
             print(out, &rows)?;
         }
@@ -84,10 +85,7 @@ impl ClipsArgs {
 /// The clip of this name with parameters set, and which of its motions is optimised.
 pub(super) fn load(name: &str, set: &[Setting], motion: Option<usize>) -> Result<Clip> {
     let mut scenario = aplomb::scenarios::load_clip(name)?;
-    for Setting { key, value } in set {
-        let option = || format!("--set {key}={value}");
-        scenario.set(key, *value).with_context(option)?;
-    }
+    set_all(&mut scenario, set)?;
     Ok(Clip::new(
         scenario,
         motion,
@@ -102,7 +100,7 @@ impl Row {
         let learned = shipped.map(|c| Judged::new(clip, Some(&c), seed));
         Ok(Self {
             clip: clip.scenario.name.clone(),
-            character: clip.model.name.clone(),
+            character: clip.model().name.clone(),
             parameters: clip.parameters(),
             length: clip.length(),
             preparation,

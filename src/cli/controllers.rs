@@ -13,6 +13,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::Verdict;
+use super::output::write_json;
 use super::scene::CastArgs;
 
 /// List the controllers of a repertoire
@@ -73,7 +74,7 @@ impl ControllersArgs {
         let simulation = Simulation::new(&scenario, &registry)?;
         let model = simulation.world().characters()[0].body.model();
         let role = &scenario.characters[0];
-        let repertoire = role.repertoire.as_deref().unwrap_or(&model.name);
+        let repertoire = role.repertoire(model);
         let files = repertoire::read(repertoire, &registry)?;
         let kinds: BTreeMap<_, _> = files
             .into_iter()
@@ -82,8 +83,7 @@ impl ControllersArgs {
         let pool = simulation.actors()[0].mind.controllers();
         let rows: Vec<Row> = pool.map(|c| row(c.contract(), &kinds)).collect();
         if self.json {
-            serde_json::to_writer(&mut *out, &rows)?;
-            writeln!(out)?;
+            write_json(out, &rows)?;
         } else {
             print(out, &rows)?;
         }
@@ -101,8 +101,7 @@ fn list_features(out: &mut dyn Write, json: bool) -> Result<Verdict> {
         })
         .collect();
     if json {
-        serde_json::to_writer(&mut *out, &words)?;
-        writeln!(out)?;
+        write_json(out, &words)?;
     } else {
         for Word {
             name,

@@ -9,6 +9,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Result, bail, ensure};
 use aplomb::framework::Error;
 use aplomb::framework::trajectory::Trajectory;
+use serde::Serialize;
 
 /// What [`aplomb::render::write`] draws into.
 const PICTURES: [&str; 4] = ["svg", "png", "gif", "mp4"];
@@ -49,6 +50,13 @@ impl Write for Output {
     fn flush(&mut self) -> io::Result<()> {
         self.0.flush().map_err(told_apart)
     }
+}
+
+/// Prints one JSON value in a line.
+pub(super) fn write_json(out: &mut dyn Write, value: &impl Serialize) -> Result<()> {
+    serde_json::to_writer(&mut *out, value)?;
+    writeln!(out)?;
+    Ok(())
 }
 
 /// Whether a subcommand ended because nobody reads its output.

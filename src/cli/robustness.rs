@@ -15,7 +15,7 @@ use aplomb::training::worlds::Worlds;
 use clap::Args;
 use serde::Serialize;
 
-use super::output::message;
+use super::output::{message, write_json};
 use super::scene::CastArgs;
 use super::train::skills;
 use super::values::whole;
@@ -116,8 +116,7 @@ impl RobustnessArgs {
             controllers: rows,
         };
         if self.json {
-            serde_json::to_writer(&mut *out, &report)?;
-            writeln!(out)?;
+            write_json(out, &report)?;
         } else {
             print(out, &report)?;
         }

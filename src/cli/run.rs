@@ -10,7 +10,7 @@ use aplomb::framework::simulation::Simulation;
 use clap::Args;
 
 use super::json::RunJson;
-use super::output::{check_picture, check_writable, message, write_recording};
+use super::output::{check_picture, check_writable, message, write_json, write_recording};
 use super::scene::{SceneArgs, record};
 use super::values::{Push, Timed, TimedCommand, duration};
 use super::{Verdict, progress, timeline};
@@ -76,8 +76,7 @@ impl RunArgs {
         let mut told = Vec::new();
         if self.json {
             let json = RunJson::new(&simulation, &scenario, wall_s, self.explain);
-            serde_json::to_writer(&mut told, &json)?;
-            writeln!(told)?;
+            write_json(&mut told, &json)?;
         } else {
             timeline::print(&mut told, &simulation, &scenario, self.explain)?;
         }

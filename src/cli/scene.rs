@@ -52,10 +52,7 @@ impl SceneArgs {
     pub(super) fn load(&self, otherwise: f64, registry: &Registry) -> Result<Scenario> {
         let name = self.scenario.as_deref();
         let mut scenario = self.cast.apply(name, otherwise, registry)?;
-        for Setting { key, value } in &self.set {
-            let option = || format!("--set {key}={value}");
-            scenario.set(key, *value).with_context(option)?;
-        }
+        set_all(&mut scenario, &self.set)?;
         if let Some(seed) = self.seed {
             scenario.seed = seed;
         }
@@ -90,10 +87,19 @@ impl CastArgs {
     }
 }
 
+/// Sets parameters of a scenario.
+pub(super) fn set_all(scenario: &mut Scenario, settings: &[Setting]) -> Result<()> {
+    for Setting { key, value } in settings {
+        let option = || format!("--set {key}={value}");
+        scenario.set(key, *value).with_context(option)?;
+    }
+    Ok(())
+}
+
 /// Says what is known when a repertoire is neither shipped nor a file.
 fn check_repertoire(role: &Role, registry: &Registry) -> Result<()> {
     let model = Model::load(&role.character)?;
-    let name = role.repertoire.as_deref().unwrap_or(&model.name);
+    let name = role.repertoire(&model);
     let shipped = registry.file(&format!("repertoires/{name}.ron"));
     if shipped.is_some() || Path::new(name).exists() {
         return Ok(());

@@ -55,6 +55,12 @@ impl Chart {
         [self.x(along), self.y(value)]
     }
 
+    /// The same in the picture, px.
+    pub(super) fn place(&self, point: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.inside(point);
+        [self.at[0] + x, self.at[1] + y]
+    }
+
     /// What is drawn from the plotting area's upper left corner on, cut off at its edges.
     pub(super) fn window(&self, content: Group) -> SVG {
         window(self.at, self.size, content)

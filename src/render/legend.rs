@@ -2,6 +2,7 @@
 
 use svg::node::element::{Circle, Group, Path};
 
+use super::chart::Style;
 use super::style::{INK, px, rectangle, text};
 
 /// From one line of a legend to the next, px.
@@ -55,6 +56,20 @@ impl Mark {
     }
 }
 
+/// Adds points of a picture joined by a line, with a mark at each.
+pub(super) fn marked_line(
+    group: Group,
+    places: &[[f64; 2]],
+    style: Style,
+    mark: Mark,
+    radius: f64,
+    colour: &str,
+) -> Group {
+    let line = group.add(style.polyline(places));
+    let marks = places.iter().map(|at| mark.draw(*at, radius, colour));
+    marks.fold(line, Group::add)
+}
+
 /// Samples with their names, one below the other.
 #[derive(Debug)]
 pub(super) struct Legend {
@@ -88,6 +103,26 @@ impl Legend {
     /// As [`Self::entry`], for a mark.
     pub(super) fn mark(self, name: &str, mark: Mark, radius: f64, colour: &str) -> Self {
         self.entry(name, |[x, y]| mark.draw([x + 11.0, y], radius, colour))
+    }
+
+    /// As [`Self::entry`], for a line.
+    pub(super) fn line(self, name: &str, style: Style) -> Self {
+        self.entry(name, |at| Group::new().add(style.sample(at, 22.0)))
+    }
+
+    /// As [`Self::entry`], for a line with a mark on it.
+    pub(super) fn marked(
+        self,
+        name: &str,
+        style: Style,
+        mark: Mark,
+        radius: f64,
+        colour: &str,
+    ) -> Self {
+        self.entry(name, |[x, y]| {
+            let sample = Group::new().add(style.sample([x, y], 22.0));
+            sample.add(mark.draw([x + 11.0, y], radius, colour))
+        })
     }
 
     /// The whole list.

@@ -23,7 +23,7 @@ use crate::cma_es::{Best, Search, minimise, population};
 use crate::exercise::{Drill, Exercise, Score, Task};
 use crate::journal::{Journal, beside};
 use crate::skill::Skill;
-use crate::tune::{Tunable, at, line_of, point_of, spec_in, text_of};
+use crate::tune::{Tunable, at, line_of, point_of, text_of};
 
 /// The kinds of controllers that can be searched.
 pub const KINDS: [&str; 3] = [
@@ -111,7 +111,7 @@ fn search<T: Tunable>(
     mut watch: impl FnMut(Stage) -> ControlFlow<()>,
 ) -> Result<Option<Found>> {
     let (model, contract) = (&skill.model, &skill.contract);
-    let file = spec_in::<T>(skill.name(), &skill.file)?;
+    let file = skill.file.parameters::<T>(skill.name())?;
     let search = Search {
         sigma: plan.sigma,
         population: population(file.dimensions(model).len()),
@@ -219,7 +219,7 @@ fn open<T: Tunable>(
     if written.is_ok_and(|written| written == now) {
         let source = Source::new(path.display().to_string(), before);
         let first: ControllerFile = source.parse()?;
-        return Ok((journal, spec_in(&source.origin, &first)?));
+        return Ok((journal, first.parameters(&source.origin)?));
     }
     let accepted = "the controller as it was when the search began";
     let place = path.display().to_string();
@@ -228,7 +228,7 @@ fn open<T: Tunable>(
 
 fn line_in<T: Tunable>(source: &Source) -> Result<String> {
     let file: ControllerFile = source.parse()?;
-    let spec = spec_in::<T>(&source.origin, &file)?;
+    let spec = file.parameters::<T>(&source.origin)?;
     Ok(line_of(&file.contract, &spec))
 }
 

@@ -12,11 +12,11 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 
 use aplomb_controllers::target::NamedAngles;
+use aplomb_framework::Result;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::file::{Source, options};
 use aplomb_framework::model::Model;
 use aplomb_framework::registry::{ControllerFile, Spec};
-use aplomb_framework::{Error, Result};
 use serde::Serialize;
 
 use crate::cma_es::{Best, Search, minimise};
@@ -81,19 +81,8 @@ pub fn point_of<T: Tunable>(spec: &T, model: &Model) -> Vec<f64> {
 /// Bad syntax, or another kind of controller.
 pub fn spec_of<T: Spec>(source: &Source) -> Result<(Contract, T)> {
     let file: ControllerFile = source.parse()?;
-    let spec = spec_in(&source.origin, &file)?;
+    let spec = file.parameters(&source.origin)?;
     Ok((file.contract, spec))
-}
-
-/// The spec of a controller file that is parsed; `origin` is what errors call it.
-///
-/// # Errors
-/// As [`spec_of`].
-pub fn spec_in<T: Spec>(origin: &str, file: &ControllerFile) -> Result<T> {
-    if file.kind != T::KIND {
-        return Err(Error::unknown("kind", &file.kind, [T::KIND]));
-    }
-    Source::new(origin, file.spec.get_ron()).parse()
 }
 
 #[derive(Serialize)]

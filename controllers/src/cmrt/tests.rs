@@ -7,7 +7,7 @@ fn shipped(name: &str) -> (Arc<Model>, CmrtController) {
     let file: ControllerFile = source.parse().unwrap();
     let mut contract = file.contract.clone();
     contract.resolve(&model).unwrap();
-    let spec: CmrtSpec = Source::new(name, file.spec.get_ron()).parse().unwrap();
+    let spec: CmrtSpec = file.parameters(name).unwrap();
     let controller = spec.controller(contract, &model).unwrap();
     (model, controller)
 }

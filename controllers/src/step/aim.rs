@@ -7,6 +7,7 @@ use aplomb_framework::sensors::Sensors;
 use super::{DRAW, LEANING, LONGER, Phase, Placement, Step};
 use crate::momentum::{Swing, sole_centre};
 use crate::servo::smoothstep;
+use crate::upright::glided;
 
 /// The middle of a foot's sole, world, m.
 pub(super) fn sole(now: &Sensors, foot: usize) -> [f64; 2] {
@@ -152,7 +153,7 @@ impl Step {
             Phase::Settle => (0.5 * (a + b), None, 0.0),
         };
         let step = self.spec.glide * passed;
-        self.over += (goal - self.over).clamp(-step, step);
+        self.over = glided(self.over, goal, step);
         // A wide stance is a low one.
         let spread = 0.5 * (a - b);
         let drop = self.leg - (self.leg * self.leg - spread * spread).max(0.0).sqrt();

@@ -17,7 +17,7 @@ use serde::Serialize;
 
 use super::cmrt::{SearchArgs, shown};
 use super::figures::Figures;
-use crate::cli::output::{check_writable, message};
+use crate::cli::output::{check_writable, message, write_json};
 use crate::cli::values::{Setting, whole};
 use crate::cli::{Verdict, work};
 
@@ -162,8 +162,7 @@ impl BasisArgs {
             out: file.display().to_string(),
         };
         if self.json {
-            serde_json::to_writer(&mut *out, &report)?;
-            writeln!(out)?;
+            write_json(out, &report)?;
         } else {
             print(out, &report)?;
         }

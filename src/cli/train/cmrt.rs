@@ -22,7 +22,7 @@ use cpu_time::ProcessTime;
 use serde::Serialize;
 
 use super::figures::Figures;
-use crate::cli::output::{check_writable, message};
+use crate::cli::output::{check_writable, message, write_json};
 use crate::cli::values::{Setting, number, whole};
 use crate::cli::{Verdict, clips, progress, work};
 
@@ -195,8 +195,7 @@ impl CmrtArgs {
             ));
         }
         if self.json {
-            serde_json::to_writer(&mut *out, &report)?;
-            writeln!(out)?;
+            write_json(out, &report)?;
         } else {
             print(out, &report)?;
         }
@@ -218,7 +217,7 @@ impl SearchArgs {
 
     /// All knots and control points.
     pub(super) fn encoding(&self, clip: &Clip) -> Encoding {
-        Encoding::full(self.knots as usize, clip.length(), &clip.model)
+        Encoding::full(self.knots as usize, clip.length(), clip.model())
     }
 
     /// A search from the middle of the cube.

@@ -42,6 +42,6 @@ pub(super) fn skills(cast: &CastArgs) -> Result<Vec<Skill>> {
     let scenario = cast.apply(None, 1.0, &registry)?;
     let role = &scenario.characters[0];
     let model = Model::load(&role.character)?;
-    let repertoire = role.repertoire.as_deref().unwrap_or(&model.name);
+    let repertoire = role.repertoire(&model);
     Ok(Skill::all(repertoire, &registry, &model)?)
 }

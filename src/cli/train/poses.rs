@@ -17,7 +17,7 @@ use indicatif::ProgressBar;
 use serde::Serialize;
 
 use super::skills;
-use crate::cli::output::{check_writable, message};
+use crate::cli::output::{check_writable, message, write_json};
 use crate::cli::scene::CastArgs;
 use crate::cli::values::{number, whole};
 use crate::cli::{Verdict, progress, work};
@@ -127,8 +127,7 @@ impl PosesArgs {
             out: file.display().to_string(),
         };
         if self.json {
-            serde_json::to_writer(&mut *out, &report)?;
-            writeln!(out)?;
+            write_json(out, &report)?;
         } else {
             print(out, &report)?;
         }

@@ -24,7 +24,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::skills;
-use crate::cli::output::message;
+use crate::cli::output::{message, write_json};
 use crate::cli::scene::CastArgs;
 use crate::cli::values::whole;
 use crate::cli::{Verdict, progress, work};
@@ -152,8 +152,7 @@ impl PreconditionsArgs {
             rows.push(row);
         }
         if self.json {
-            serde_json::to_writer(&mut *out, &rows)?;
-            writeln!(out)?;
+            write_json(out, &rows)?;
         }
         Ok(Verdict::Done)
     }

@@ -7,6 +7,7 @@ use anyhow::Result;
 use serde::Serialize;
 
 use crate::cli::json::RunJson;
+use crate::cli::output::write_json;
 
 use super::falls_report::FallsReport;
 use super::plan::Plan;
@@ -98,10 +99,9 @@ impl Report {
     /// As one JSON value; with the run of a single trial within.
     pub(super) fn write_json(&self, out: &mut dyn Write, run: Option<RunJson>) -> Result<()> {
         match run {
-            None => serde_json::to_writer(&mut *out, self)?,
-            Some(run) => serde_json::to_writer(&mut *out, &WithRun { report: self, run })?,
+            None => write_json(out, self),
+            Some(run) => write_json(out, &WithRun { report: self, run }),
         }
-        Ok(writeln!(out)?)
     }
 
     /// As text.

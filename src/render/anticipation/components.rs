@@ -75,11 +75,9 @@ pub(super) fn figure(basis: &Basis) -> Result<String> {
     }
     let right = CORNER[0] + PITCH[0] * (columns - 1) as f64 + SIZE[0];
     let legend = Legend::new([right + 16.0, CORNER[1] + 10.0])
-        .entry("mean", |at| Group::new().add(MEAN.sample(at, 22.0)))
-        .entry("one standard\ndeviation more", |at| {
-            Group::new().add(MORE.sample(at, 22.0))
-        })
-        .entry("one less", |at| Group::new().add(LESS.sample(at, 22.0)));
+        .line("mean", MEAN)
+        .line("one standard\ndeviation more", MORE)
+        .line("one less", LESS);
     let rows = count.div_ceil(COLUMNS);
     let height = CORNER[1] + PITCH[1] * (rows - 1) as f64 + SIZE[1] + 46.0;
     Ok(document(

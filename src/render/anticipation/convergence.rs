@@ -83,10 +83,8 @@ pub(super) fn figure(course: &[(usize, f64)], flat: f64) -> Result<String> {
         group = group.add(Mark::Circle.draw(at, 4.0, COLOUR)).add(told);
     }
     let legend = Legend::new([chart.at[0] + chart.size[0] + 16.0, 24.0])
-        .entry("best so far", |at| Group::new().add(BEST.sample(at, 22.0)))
-        .entry(&format!("without anticipation:\n{}", short(flat)), |at| {
-            Group::new().add(FLAT.sample(at, 22.0))
-        });
+        .line("best so far", BEST)
+        .line(&format!("without anticipation:\n{}", short(flat)), FLAT);
     Ok(document([672.0, 322.0], group.add(legend.finish())))
 }
 

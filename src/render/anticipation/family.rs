@@ -51,9 +51,7 @@ pub(super) fn figure(basis: &Basis) -> Result<String> {
             .add(drawn(&chart, curve, style))
             .add(knots(&chart, member, RADIUS, colour));
         if i % every == 0 || i + 1 == family.len() {
-            legend = legend.entry(&number(member.value), |at| {
-                Group::new().add(style.sample(at, 22.0))
-            });
+            legend = legend.line(&number(member.value), style);
         }
     }
     group = group.add(chart.frame()).add(legend.finish());

@@ -59,10 +59,7 @@ pub(super) fn figure(learned: &Learned<'_>) -> Result<String> {
             .add(title(&chart, name, *rollout, samples));
     }
     let legend = Legend::new([CORNER[0] + SIZE[0] + 16.0, CORNER[1] + 10.0])
-        .entry(
-            "centre of pressure\nfrom the middle\nof the support",
-            |at| Group::new().add(ERROR.sample(at, 22.0)),
-        )
+        .line("centre of pressure\nfrom the middle\nof the support", ERROR)
         .entry("base of support", |[x, y]| {
             let area = rectangle([x, y - 5.5], [22.0, 11.0], SUPPORT);
             Group::new().add(area.set("opacity", px(OPACITY)))

@@ -39,8 +39,7 @@ pub(super) fn drawn(chart: &Chart, curve: &[[f64; 2]], style: Style) -> Group {
 pub(super) fn knots(chart: &Chart, cmrt: &Cmrt, radius: f64, colour: &str) -> Group {
     let mut group = Group::new();
     for (time, displacement) in cmrt.times.iter().zip(&cmrt.displacements) {
-        let [x, y] = chart.inside([*time, *displacement]);
-        let at = [chart.at[0] + x, chart.at[1] + y];
+        let at = chart.place([*time, *displacement]);
         group = group.add(Mark::Circle.draw(at, radius, colour));
     }
     group
@@ -74,12 +73,13 @@ pub(super) fn figure(learned: &Learned<'_>) -> Result<String> {
         .add(chart.frame())
         .add(knots(&chart, learned.cmrt, RADIUS, INK));
     let legend = Legend::new([chart.at[0] + chart.size[0] + 16.0, 38.0])
-        .entry("reference trajectory\nwith its knots", |[x, y]| {
-            let sample = Group::new().add(REFERENCE.sample([x, y], 22.0));
-            sample.add(Mark::Circle.draw([x + 11.0, y], RADIUS, INK))
-        })
-        .entry("centre of mass\nas it moved", |at| {
-            Group::new().add(ACTUAL.sample(at, 22.0))
-        });
+        .marked(
+            "reference trajectory\nwith its knots",
+            REFERENCE,
+            Mark::Circle,
+            RADIUS,
+            INK,
+        )
+        .line("centre of mass\nas it moved", ACTUAL);
     Ok(document([706.0, 346.0], group.add(legend.finish())))
 }

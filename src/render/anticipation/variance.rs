@@ -6,7 +6,7 @@ use aplomb_training::anticipation::basis::Basis;
 use svg::node::element::Group;
 
 use crate::render::chart::{Chart, Style};
-use crate::render::legend::{Legend, Mark};
+use crate::render::legend::{Legend, Mark, marked_line};
 use crate::render::style::{FAINT_INK, INK, document, line, text};
 
 const COLOUR: &str = "#0072b2";
@@ -52,19 +52,10 @@ pub(super) fn figure(basis: &Basis) -> Result<String> {
         ("with those before", &sums, CUMULATIVE, Mark::Diamond),
         ("each alone", parts, PROPORTION, Mark::Circle),
     ] {
-        let place = |(k, part): (usize, &f64)| {
-            let [x, y] = chart.inside([(k + 1) as f64, 100.0 * part]);
-            [chart.at[0] + x, chart.at[1] + y]
-        };
+        let place = |(k, part): (usize, &f64)| chart.place([(k + 1) as f64, 100.0 * part]);
         let places: Vec<_> = values.iter().enumerate().map(place).collect();
-        group = group.add(style.polyline(&places));
-        for at in places {
-            group = group.add(mark.draw(at, RADIUS, COLOUR));
-        }
-        legend = legend.entry(name, |[x, y]| {
-            let sample = Group::new().add(style.sample([x, y], 22.0));
-            sample.add(mark.draw([x + 11.0, y], RADIUS, COLOUR))
-        });
+        group = marked_line(group, &places, style, mark, RADIUS, COLOUR);
+        legend = legend.marked(name, style, mark, RADIUS, COLOUR);
     }
     Ok(document([622.0, 322.0], group.add(legend.finish())))
 }

@@ -213,9 +213,7 @@ fn legend([x, y]: [f64; 2], limits: Option<&Limits>) -> Group {
         let told = format!("{percentage} %");
         group = group.add(text([x + BAR[0] + 7.0, at], 10.5, INK, "start", &told));
     }
-    let sample = |style: Style| move |at| Group::new().add(style.sample(at, 22.0));
-    let mut legend =
-        Legend::new([x, top + BAR[1] + 26.0]).entry("learned boundary: 50 %", sample(CONTOUR));
+    let mut legend = Legend::new([x, top + BAR[1] + 26.0]).line("learned boundary: 50 %", CONTOUR);
     for (name, success) in [
         ("test sample, succeeded", true),
         ("test sample, failed", false),
@@ -225,10 +223,10 @@ fn legend([x, y]: [f64; 2], limits: Option<&Limits>) -> Group {
     }
     if let Some(limits) = limits {
         let name = "capture point over the\ntoes, over the heels";
-        legend = legend.entry(name, sample(CAPTURE_LINE));
+        legend = legend.line(name, CAPTURE_LINE);
         if limits.feasible.is_some() {
             let name = "feasible in humans,\nmoving forward";
-            legend = legend.entry(name, sample(FEASIBLE_EDGE));
+            legend = legend.line(name, FEASIBLE_EDGE);
         }
     }
     group.add(legend.finish())

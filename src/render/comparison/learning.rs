@@ -6,7 +6,7 @@ use svg::node::element::Group;
 
 use super::{Figure, NEIGHBOUR, SVM, check_share};
 use crate::render::chart::{Chart, Style, logarithmic, range};
-use crate::render::legend::{Legend, Mark};
+use crate::render::legend::{Legend, Mark, marked_line};
 use crate::render::style::document;
 
 const RADIUS: f64 = 4.0;
@@ -47,19 +47,10 @@ pub(super) fn figure(report: &Report) -> Result<Figure> {
     ];
     for (name, mark, colour, dashes, accuracy) in rivals {
         let style = Style::dashed(colour, 2.0, dashes);
-        let place = |p: &CurvePoint| {
-            let [x, y] = chart.inside([(p.train as f64).log10(), 100.0 * accuracy(p)]);
-            [chart.at[0] + x, chart.at[1] + y]
-        };
+        let place = |p: &CurvePoint| chart.place([(p.train as f64).log10(), 100.0 * accuracy(p)]);
         let places: Vec<_> = points.iter().map(place).collect();
-        group = group.add(style.polyline(&places));
-        for at in places {
-            group = group.add(mark.draw(at, RADIUS, colour));
-        }
-        legend = legend.entry(name, |[x, y]| {
-            let sample = Group::new().add(style.sample([x, y], 22.0));
-            sample.add(mark.draw([x + 11.0, y], RADIUS, colour))
-        });
+        group = marked_line(group, &places, style, mark, RADIUS, colour);
+        legend = legend.marked(name, style, mark, RADIUS, colour);
     }
     let (first, last) = (&points[0], &points[points.len() - 1]);
     let caption = format!(

@@ -44,8 +44,7 @@ pub(super) fn figure(report: &Report) -> Result<Figure> {
         .add(chart.window(lines))
         .add(chart.frame());
     let auc = format!("SVM, any threshold:\nAUC {:.3}", report.svm.auc);
-    let mut legend = Legend::new([chart.at[0] + chart.size[0] + 18.0, 22.0])
-        .entry(&auc, |at| Group::new().add(CURVE.sample(at, 22.0)));
+    let mut legend = Legend::new([chart.at[0] + chart.size[0] + 18.0, 22.0]).line(&auc, CURVE);
     // The rivals last: where they agree with the machine, they are seen.
     let answers = [
         ("SVM as it decides", Mark::Circle, SVM, &report.svm.metrics),
@@ -61,12 +60,11 @@ pub(super) fn figure(report: &Report) -> Result<Figure> {
         let Some(rates) = operating_point(metrics) else {
             continue;
         };
-        let [x, y] = place(&rates);
-        let at = [chart.at[0] + x, chart.at[1] + y];
+        let at = chart.place(rates.map(|r| 100.0 * r));
         group = group.add(mark.draw(at, RADIUS, colour));
         legend = legend.mark(name, mark, RADIUS, colour);
     }
-    legend = legend.entry("guessing", |at| Group::new().add(GUESSING.sample(at, 22.0)));
+    legend = legend.line("guessing", GUESSING);
     let caption = format!(
         "ROC curve on {} test samples: how many of the successes are foretold (up) at the price of \
          how many failures foretold as successes (right), as the threshold of the SVM's \

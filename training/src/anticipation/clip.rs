@@ -17,16 +17,14 @@ use aplomb_framework::supervisor::Supervisor;
 use aplomb_framework::{Error, Result};
 
 use crate::skill::Skill;
-use crate::tune::{line_of, spec_in, text_of};
+use crate::tune::{line_of, text_of};
 
 /// What is optimised: one motion of the controller that a scenario commands.
 #[derive(Debug, Clone)]
 pub struct Clip {
     /// The world, the real parameters, what is expected.
     pub scenario: Scenario,
-    /// The first character.
-    pub model: Arc<Model>,
-    /// The controller in its place.
+    /// The controller in its place, and the first character.
     pub skill: Skill,
     /// s at which it is commanded.
     pub at: f64,
@@ -48,14 +46,11 @@ impl Clip {
     pub fn new(scenario: Scenario, motion: Option<usize>, registry: &Registry) -> Result<Self> {
         let role = &scenario.characters[0];
         let model = Model::load(&role.character)?;
-        let repertoire = role.repertoire.as_deref().unwrap_or(&model.name);
+        let repertoire = role.repertoire(&model);
         let skills = Skill::all(repertoire, registry, &model)?;
         let (at, text) = commanded(&scenario)?;
         let command: Command = text.parse()?;
-        let answers = |s: &&Skill| {
-            let mut contract = s.contract.clone();
-            contract.resolve(&model).is_ok() && contract.answer(&command).is_some()
-        };
+        let answers = |s: &&Skill| s.contract.answer(&command).is_some();
         let skill = skills.iter().find(answers).ok_or_else(|| {
             let known = skills.iter().map(Skill::name);
             Error::unknown("command", &command.name, known)
@@ -64,7 +59,7 @@ impl Clip {
             let (problem, accepted) = (skill.kind(), CmrtSpec::KIND);
             return Err(Error::invalid(skill.name(), "kind", problem, accepted));
         }
-        let spec: CmrtSpec = spec_in(skill.name(), &skill.file)?;
+        let spec: CmrtSpec = skill.file.parameters(skill.name())?;
         let controller = spec
             .clone()
             .controller(skill.contract.clone(), &model)?
@@ -79,13 +74,18 @@ impl Clip {
         Ok(Self {
             skill: skill.clone(),
             scenario,
-            model,
             at,
             motion,
             spec,
             controller,
             value,
         })
+    }
+
+    /// The first character.
+    #[must_use]
+    pub fn model(&self) -> &Arc<Model> {
+        &self.skill.model
     }
 
     /// The controller's contract.
@@ -107,18 +107,22 @@ impl Clip {
         self.spec.motions[self.motion].length
     }
 
+    /// The time at a phase of the motion, 0 to 3, s after the command.
+    fn time(&self, phase: f64) -> f64 {
+        let line = self.controller.timeline(self.motion);
+        line.map_or(0.0, |line| line.time(phase))
+    }
+
     /// When the motion begins and ends, s.
     #[must_use]
     pub fn window(&self) -> [f64; 2] {
-        let line = self.controller.timeline(self.motion);
-        [0.0, 3.0].map(|phase| self.at + line.map_or(0.0, |line| line.time(phase)))
+        [0.0, 3.0].map(|phase| self.at + self.time(phase))
     }
 
     /// When its task begins, s.
     #[must_use]
     pub fn task(&self) -> f64 {
-        let line = self.controller.timeline(self.motion);
-        self.at + line.map_or(0.0, |line| line.time(1.0))
+        self.at + self.time(1.0)
     }
 
     /// Whether another motion goes on after it.
@@ -130,11 +134,7 @@ impl Clip {
     /// s of preparation, task and decay of the motion that is optimised, as commanded.
     #[must_use]
     pub fn phases(&self) -> [f64; 3] {
-        let time = |phase: f64| {
-            let line = self.controller.timeline(self.motion);
-            line.map_or(0.0, |line| line.time(phase))
-        };
-        let [t0, t1, t2, t3] = [0.0, 1.0, 2.0, 3.0].map(time);
+        let [t0, t1, t2, t3] = [0.0, 1.0, 2.0, 3.0].map(|phase| self.time(phase));
         [t1 - t0, t2 - t1, t3 - t2]
     }
 
@@ -169,7 +169,7 @@ impl Clip {
     /// # Errors
     /// What makes a scenario or repertoire invalid.
     pub fn simulation(&self, cmrt: Option<Cmrt>) -> Result<Simulation> {
-        let cast = vec![(Arc::clone(&self.model), self.mind(cmrt)?)];
+        let cast = vec![(Arc::clone(self.model()), self.mind(cmrt)?)];
         Simulation::with_cast(&self.scenario, cast)
     }
 

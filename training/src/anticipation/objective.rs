@@ -125,7 +125,7 @@ fn perturbed(clip: &Clip, mind: Supervisor, seed: u64, number: usize) -> Result<
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(number as u64 + 1);
     let mut scenario = clip.scenario.clone();
-    perturb(&mut scenario, &clip.model, &mut random);
+    perturb(&mut scenario, clip.model(), &mut random);
     let velocity = random.gen_range(-VELOCITY..=VELOCITY);
     rollout(clip, &scenario, mind, Some(velocity))
 }
@@ -155,11 +155,11 @@ fn rollout(
     mind: Supervisor,
     velocity: Option<f64>,
 ) -> Result<Evaluation> {
-    let cast = vec![(std::sync::Arc::clone(&clip.model), mind)];
+    let cast = vec![(std::sync::Arc::clone(clip.model()), mind)];
     let mut run = Simulation::with_cast(scenario, cast)?;
     if let Some(velocity) = velocity {
-        let root = clip.model.links[0].name.clone();
-        let impulse = velocity * clip.model.total_mass();
+        let root = clip.model().links[0].name.clone();
+        let impulse = velocity * clip.model().total_mass();
         run.shove(0, &root, [impulse, 0.0], scenario.settings.dt)?;
     }
     let name = &clip.contract().name;
@@ -172,7 +172,7 @@ fn rollout(
         scenario.duration
     };
     let dt = scenario.settings.dt;
-    let mut pose = vec![0.0; clip.model.joint_count()];
+    let mut pose = vec![0.0; clip.model().joint_count()];
     let mut sums = Sums::default();
     let mut fell = None;
     while run.time() + 0.5 * dt < last {
