@@ -2,8 +2,10 @@
 //! absorb the shock, elbows yield, knees and trunk fold, the head is kept up.
 //!
 //! Which way is decided when it takes over, by where the capture point lies, and again if the trunk
-//! turns over on the way. Three phases each way: reaching while in the air, yielding once hands
-//! or seat touch, then lowering what is still propped up. Ends lying at rest.
+//! turns over on the way. A fall that spins so fast backward that it would land on the head is met
+//! with the hands over the head, as in a back handspring. Three phases each way: reaching while in
+//! the air, yielding once hands or seat touch, then lowering what is still propped up. Ends lying
+//! at rest.
 //!
 //! Fails to protect when something hits the character on the way down, or when the fall is faster
 //! than the arms. Poses and gains: the output of a search (`aplomb train poses fall`) over pushes that
@@ -24,6 +26,8 @@ use crate::target::{NamedAngles, bounded, overlay};
 
 /// s after the landing for which the limbs hold before they lower what is still up.
 const HOLDS: f64 = 0.6;
+/// Height of the centre of mass on landing, m.
+const LANDS: f64 = 0.4;
 
 /// One way of falling.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -45,6 +49,17 @@ pub struct Way {
     pub ramp: f64,
 }
 
+/// How to fall backward over the head, and when.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Over {
+    /// Pitch of the trunk on landing, as foreseen in the air, beyond which it falls this way, rad;
+    /// π/2 is on the back, π on the head.
+    pub beyond: f64,
+    /// The poses.
+    pub way: Way,
+}
+
 /// Parameters of [`Fall`] in a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -53,6 +68,9 @@ pub struct FallSpec {
     pub forward: Way,
     /// Onto the seat and the back.
     pub backward: Way,
+    /// Backward over the head, onto the hands; as `backward` if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over: Option<Over>,
     /// Damping relative to the nominal servos.
     pub damping: f64,
 }
@@ -66,6 +84,14 @@ struct Poses {
     ramp: [f64; 3],
 }
 
+/// Where it falls to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Direction {
+    Forward,
+    Backward,
+    Over,
+}
+
 /// The controller.
 #[derive(Debug, Clone)]
 pub struct Fall {
@@ -73,7 +99,8 @@ pub struct Fall {
     servo: Servo,
     forward: Poses,
     backward: Poses,
-    is_forward: bool,
+    over: Option<(f64, Poses)>,
+    direction: Direction,
     /// When the phase began, s, and the pose at that time.
     since: f64,
     from: Vec<f64>,
@@ -101,11 +128,16 @@ impl Spec for FallSpec {
                 ramp: [way.ramp, way.ramp, way.lower],
             })
         };
+        let over = self.over.as_ref().map(|over| {
+            bounded("over", "beyond", over.beyond, 0.0, 7.0)?;
+            Ok::<_, aplomb_framework::Error>((over.beyond, poses("over", &over.way)?))
+        });
         Ok(Box::new(Fall {
+            over: over.transpose()?,
             forward: poses("forward", &self.forward)?,
             backward: poses("backward", &self.backward)?,
             servo: Servo::new(model, 1.0, self.damping),
-            is_forward: true,
+            direction: Direction::Forward,
             since: 0.0,
             from: vec![0.0; model.joint_count()],
             target: vec![0.0; model.joint_count()],
@@ -122,18 +154,33 @@ impl Fall {
         self.from.copy_from_slice(now.state.angles());
     }
 
-    /// Whether the fall goes forward: by where the capture point lies, or by the trunk once it
-    /// leans far enough to leave no doubt.
-    fn goes_forward(now: &Sensors) -> bool {
+    /// Where the fall goes: by where the capture point lies, or by the trunk once it leans far enough
+    /// to leave no doubt.
+    fn direction(&self, now: &Sensors) -> Direction {
         let pitch = now.trunk_pitch();
-        if pitch.abs() > 0.8 {
-            return pitch < 0.0;
-        }
-        match now.support_centre() {
-            Some(centre) => now.capture_point > centre,
-            None => now.com_velocity[0] > 0.0,
+        let forward = if pitch.abs() > 0.8 {
+            pitch < 0.0
+        } else {
+            match now.support_centre() {
+                Some(centre) => now.capture_point > centre,
+                None => now.com_velocity[0] > 0.0,
+            }
+        };
+        match &self.over {
+            _ if forward => Direction::Forward,
+            Some((beyond, _)) if landing_pitch(now) > *beyond => Direction::Over,
+            _ => Direction::Backward,
         }
     }
+}
+
+/// Pitch that the trunk will have when the centre of mass has come down to [`LANDS`], rad, if the whole
+/// body goes on as it flies and turns.
+fn landing_pitch(now: &Sensors) -> f64 {
+    let (up, g) = (now.com_velocity[1], now.gravity.max(1e-6));
+    let above = (now.com_height() - LANDS).max(0.0);
+    let time = (up + (up * up + 2.0 * g * above).sqrt()) / g;
+    now.trunk_pitch() + now.spin() * time
 }
 
 impl Controller for Fall {
@@ -142,25 +189,34 @@ impl Controller for Fall {
     }
 
     fn enter(&mut self, now: &Sensors) {
-        self.is_forward = Self::goes_forward(now);
+        self.direction = self.direction(now);
         self.begin_phase(now, 0);
     }
 
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
         let pitch = now.trunk_pitch();
+        let is_forward = self.direction == Direction::Forward;
         if self.phase == 0 && now.is_down() {
             self.begin_phase(now, 1);
-        } else if self.phase == 0 && pitch.abs() > 0.8 && (pitch < 0.0) != self.is_forward {
-            self.is_forward = !self.is_forward;
-            self.begin_phase(now, 0);
+        } else if self.phase == 0 && self.direction != Direction::Over {
+            let turned = pitch.abs() > 0.8 && (pitch < 0.0) != is_forward;
+            let direction = self.direction(now);
+            if turned || direction == Direction::Over {
+                self.direction = direction;
+                self.begin_phase(now, 0);
+            }
         } else if self.phase == 1 && now.time - self.since > HOLDS {
-            self.is_forward = pitch < 0.0; // it may have rolled over since
+            self.direction = if pitch < 0.0 {
+                Direction::Forward // it may have rolled over since
+            } else {
+                Direction::Backward
+            };
             self.begin_phase(now, 2);
         }
-        let way = if self.is_forward {
-            &self.forward
-        } else {
-            &self.backward
+        let way = match (self.direction, &self.over) {
+            (Direction::Forward, _) => &self.forward,
+            (Direction::Over, Some((_, over))) => over,
+            _ => &self.backward,
         };
         let eased = smoothstep((now.time - self.since) / way.ramp[self.phase].max(1e-3));
         let ends = self.from.iter().zip(&way.pose[self.phase]);

@@ -177,6 +177,20 @@ impl Sensors {
             .map(|[rear, front]| 0.5 * (rear + front))
     }
 
+    /// Rate at which the body as a whole turns, rad/s: its angular momentum about the centre of mass
+    /// over the inertia that it has in this pose.
+    #[must_use]
+    pub fn spin(&self) -> f64 {
+        let links = self.model.links.iter().zip(&self.kinematics.links);
+        let inertia: f64 = links
+            .map(|(link, motion)| {
+                let arm = [motion.com[0] - self.com[0], motion.com[1] - self.com[1]];
+                link.inertia + link.mass * (arm[0] * arm[0] + arm[1] * arm[1])
+            })
+            .sum();
+        self.angular_momentum / inertia.max(1e-9)
+    }
+
     /// Pitch of the trunk in (−π, π], rad, leaning back positive.
     #[must_use]
     pub fn trunk_pitch(&self) -> f64 {

@@ -33,7 +33,7 @@ const TORQUES: [f64; 3] = [0.85, 1.0, 1.15];
 /// any failure. It is taken from where the repertoire hands over to it, half of the times in a heap
 /// on the floor, half in a fall after a push. A step that takes over from standing is pushed on the
 /// trunk instead, by 40 to 75 N·s either way, and has to stand again within 6 s. A controller of kind
-/// fall is pushed on trunk, root and head in turn, by 60 to 260 N·s, and has to touch the ground with
+/// fall is pushed on trunk, root and head in turn, by 60 to 300 N·s, and has to touch the ground with
 /// the hands, or backward with hands or seat, before head and trunk.
 #[derive(Debug, Args)]
 #[command(after_help = "\

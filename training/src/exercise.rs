@@ -36,7 +36,7 @@ const UPRIGHT: f64 = 0.7;
 /// Part of the starts that are heaps; the others are falls.
 const HEAPS: f64 = 0.5;
 /// N·s; weakest and strongest push of a fall, and where they act.
-const FALLS: [f64; 2] = [60.0, 260.0];
+const FALLS: [f64; 2] = [60.0, 300.0];
 const EVERYWHERE: &[Site] = &[Site::Trunk, Site::Root, Site::Head];
 
 /// What a controller has to do.

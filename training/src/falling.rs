@@ -118,13 +118,13 @@ mod tests {
     use aplomb_framework::repertoire;
 
     /// A landing of the humanoid with a shipped repertoire, backward.
-    fn landing(repertoire: &str, impulse: f64) -> Landing {
+    fn landing(repertoire: &str, sites: &'static [Site], impulse: f64) -> Landing {
         let model = Model::load("humanoid").unwrap();
         let registry = aplomb_controllers::registry();
         let mind = repertoire::load(repertoire, &registry, &model).unwrap();
         let pushes = Pushes {
             impulse: [impulse; 2],
-            sites: &[Site::Trunk],
+            sites,
             count: 2,
             seed: 0,
         };
@@ -134,7 +134,10 @@ mod tests {
 
     #[test]
     fn a_fall_that_is_broken_costs_less_than_falling_limp() {
-        let (broken, limp) = (landing("humanoid", 150.0), landing("limp", 150.0));
+        let (broken, limp) = (
+            landing("humanoid", &[Site::Trunk], 150.0),
+            landing("limp", &[Site::Trunk], 150.0),
+        );
         assert!(broken.fell && broken.protected, "{broken:?}");
         assert!(limp.fell && limp.settled, "{limp:?}");
         assert!(limp.head_speed > broken.head_speed, "{limp:?} {broken:?}");
@@ -142,8 +145,19 @@ mod tests {
     }
 
     #[test]
+    fn a_blow_that_turns_the_character_over_is_met_with_the_hands() {
+        let (broken, limp) = (
+            landing("humanoid", &[Site::Head], 260.0),
+            landing("limp", &[Site::Head], 260.0),
+        );
+        assert!(broken.fell && broken.protected, "{broken:?}");
+        assert!(limp.fell && !limp.protected, "{limp:?}");
+        assert!(broken.cost() < limp.cost(), "{limp:?} {broken:?}");
+    }
+
+    #[test]
     fn who_stays_on_its_feet_is_charged_nothing() {
-        let stood = landing("humanoid", 10.0);
+        let stood = landing("humanoid", &[Site::Trunk], 10.0);
         assert!(!stood.fell, "{stood:?}");
         assert_eq!(stood.cost(), 0.0);
     }

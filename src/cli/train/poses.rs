@@ -28,7 +28,7 @@ use crate::cli::{Verdict, progress, work};
 /// to 1.05). A controller of kind pose or step is taken from where its repertoire hands over to it,
 /// half of the times in a heap on the floor, half in a fall after a push, and has to come to its goal
 /// without any failure; a step that takes over from standing is pushed, by 40 to 90 N·s either way. A
-/// controller of kind fall is pushed by 60 to 260 N·s on trunk, root and head in turn, and has to keep
+/// controller of kind fall is pushed by 60 to 300 N·s on trunk, root and head in turn, and has to keep
 /// head and trunk from hitting the ground first, and hard.
 ///
 /// The best controller so far is always in the output; beside it is a journal with which --resume

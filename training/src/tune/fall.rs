@@ -1,6 +1,6 @@
 //! The numbers of protective falling.
 
-use aplomb_controllers::fall::FallSpec;
+use aplomb_controllers::fall::{FallSpec, Over};
 use aplomb_framework::model::Model;
 
 use super::Tunable;
@@ -8,7 +8,7 @@ use crate::dimension::{Dimension, linear, logarithmic};
 
 impl Tunable for FallSpec {
     fn dimensions(&self, _: &Model) -> Vec<Dimension> {
-        vec![
+        let mut all = vec![
             linear("forward.reach.waist", -0.6, 0.4),
             linear("forward.reach.shoulder", 0.6, 2.2),
             linear("forward.reach.elbow", 0.1, 1.2),
@@ -36,16 +36,43 @@ impl Tunable for FallSpec {
             logarithmic("backward.reach_stiffness", 0.2, 1.2),
             logarithmic("backward.give_stiffness", 0.1, 1.0),
             logarithmic("backward.ramp", 0.08, 0.6),
-        ]
+        ];
+        if self.over.is_some() {
+            all.extend([
+                linear("over.beyond", 1.6, 2.6),
+                linear("over.reach.waist", -1.0, 0.3),
+                linear("over.reach.shoulder", 1.8, 3.1),
+                linear("over.reach.elbow", 0.0, 1.2),
+                linear("over.reach.hip", 0.0, 1.6),
+                linear("over.reach.knee", -1.6, 0.0),
+                linear("over.give.waist", -1.0, 0.3),
+                linear("over.give.shoulder", 1.2, 3.1),
+                linear("over.give.elbow", 0.2, 2.2),
+                linear("over.give.hip", 0.0, 2.0),
+                linear("over.give.knee", -2.0, 0.0),
+                logarithmic("over.reach_stiffness", 0.2, 1.2),
+                logarithmic("over.give_stiffness", 0.1, 1.0),
+                logarithmic("over.ramp", 0.08, 0.4),
+            ]);
+        }
+        all
     }
 
     fn slot(&mut self, name: &str) -> &mut f64 {
-        let (way, rest) = match name.strip_prefix("forward.") {
-            Some(rest) => (&mut self.forward, rest),
-            None => (
-                &mut self.backward,
-                name.strip_prefix("backward.").unwrap_or(name),
-            ),
+        let (way, rest) = match name.split_once('.') {
+            Some(("forward", rest)) => (&mut self.forward, rest),
+            Some(("over", rest)) => {
+                let over = self.over.get_or_insert_with(|| Over {
+                    beyond: std::f64::consts::PI,
+                    way: self.backward.clone(),
+                });
+                if rest == "beyond" {
+                    return &mut over.beyond;
+                }
+                (&mut over.way, rest)
+            }
+            Some((_, rest)) => (&mut self.backward, rest),
+            None => (&mut self.backward, name),
         };
         match rest.split_once('.') {
             Some(("reach", joint)) => way.reach.entry(joint.to_owned()).or_insert(0.0),
