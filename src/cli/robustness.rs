@@ -133,36 +133,38 @@ impl RobustnessArgs {
         self.controllers.iter().map(named).collect()
     }
 
-    /// A row for each, without what was not finished.
+    /// A row for each, without the worlds that were not finished.
     fn measure(&self, chosen: &[(&Skill, Task)], stop: &AtomicBool) -> Result<Vec<Row>> {
-        let cells = (FRICTIONS.len() * TORQUES.len()) as u64;
-        let bar = progress::bar(chosen.len() as u64 * cells * self.starts, "starts");
-        let mut rows = Vec::with_capacity(chosen.len());
-        for (skill, task) in chosen {
-            let mut row = Row {
-                controller: skill.name().to_owned(),
-                kind: skill.kind().to_owned(),
-                goal: goal(*task),
-                cells: Vec::with_capacity(cells as usize),
-                least: None,
-            };
-            for (friction, torque) in grid() {
-                bar.set_message(format!("; {}", skill.name()));
-                let before = (rows.len() as u64 * cells + row.cells.len() as u64) * self.starts;
-                let drill = Drill::cell(
-                    Worlds::single(friction, torque),
-                    self.starts as usize,
-                    self.seed,
-                );
-                let exercise = Exercise::new(skill, drill, |found| {
-                    bar.set_position(before + found as u64);
-                    work::going_on(stop)
-                })?;
-                if stop.load(Ordering::Relaxed) {
-                    break;
-                }
+        let skills: Vec<&Skill> = chosen.iter().map(|(skill, _)| *skill).collect();
+        let row = |(skill, task): &(&Skill, Task)| Row {
+            controller: skill.name().to_owned(),
+            kind: skill.kind().to_owned(),
+            goal: goal(*task),
+            cells: Vec::with_capacity(FRICTIONS.len() * TORQUES.len()),
+            least: None,
+        };
+        let mut rows: Vec<Row> = chosen.iter().map(row).collect();
+        // The starts of a world, and as many rollouts from them.
+        let world = 2 * skills.len() as u64 * self.starts;
+        let bar = progress::bar(grid().count() as u64 * world, "starts and rollouts");
+        for (done, (friction, torque)) in grid().enumerate() {
+            let before = done as u64 * world;
+            bar.set_message(format!("; friction {friction}, torque {torque}"));
+            let drill = Drill::cell(
+                Worlds::single(friction, torque),
+                self.starts as usize,
+                self.seed,
+            );
+            let exercises = Exercise::all(&skills, drill, |found| {
+                bar.set_position(before + found as u64);
+                work::going_on(stop)
+            })?;
+            if stop.load(Ordering::Relaxed) {
+                break;
+            }
+            bar.set_position(before + world / 2);
+            for ((row, exercise), skill) in rows.iter_mut().zip(exercises).zip(&skills) {
                 let (starts, reached) = (exercise.starts(), exercise.judge(&skill.mind).reached);
-                bar.set_position(before + self.starts);
                 row.cells.push(Cell {
                     friction,
                     torque,
@@ -170,14 +172,14 @@ impl RobustnessArgs {
                     reached,
                     fraction: (starts > 0).then(|| reached as f64 / starts as f64),
                 });
-            }
-            row.least = least(&row.cells);
-            rows.extend((!row.cells.is_empty()).then_some(row));
-            if stop.load(Ordering::Relaxed) {
-                break;
+                bar.inc(self.starts);
             }
         }
         bar.finish_and_clear();
+        rows.retain(|row| !row.cells.is_empty());
+        for row in &mut rows {
+            row.least = least(&row.cells);
+        }
         Ok(rows)
     }
 }

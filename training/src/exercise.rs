@@ -107,6 +107,8 @@ pub struct Drill {
     pub sites: &'static [Site],
     /// How many.
     pub starts: usize,
+    /// They are looked for in so many situations each.
+    pub patience: usize,
     /// Fixes everything random.
     pub seed: u64,
 }
@@ -120,11 +122,13 @@ impl Drill {
             impulse: [40.0, 90.0],
             sites: &[Site::Trunk, Site::Trunk, Site::Root],
             starts,
+            patience: 50,
             seed,
         }
     }
 
-    /// What skills are measured with in a single world: weaker pushes, of the trunk alone.
+    /// What skills are measured with in a single world: weaker pushes, of the trunk alone, and less
+    /// patience with what seldom occurs.
     #[must_use]
     pub fn cell(worlds: Worlds, starts: usize, seed: u64) -> Self {
         Self {
@@ -132,6 +136,7 @@ impl Drill {
             impulse: [40.0, 75.0],
             sites: &[Site::Trunk],
             starts,
+            patience: 10,
             seed,
         }
     }
@@ -182,32 +187,62 @@ impl Exercise {
         drill: Drill,
         watch: impl FnMut(usize) -> ControlFlow<()>,
     ) -> Result<Self> {
-        let (model, mind, contract) = (&skill.model, &skill.mind, &skill.contract);
-        let task = Task::of(skill)?;
-        let starts = match task {
-            Task::Rise(_) => {
-                let source = starts::Source {
-                    worlds: drill.worlds,
-                    heaps: HEAPS,
-                    seed: drill.seed,
-                };
-                starts(source, drill.starts, model, contract, mind, watch)?
+        let mut one = Self::all(&[skill], drill, watch)?;
+        Ok(one.remove(0))
+    }
+
+    /// The exercises of several skills of one repertoire, as [`Self::new`] makes each, in less time.
+    /// `watch` sees the starts of all together.
+    ///
+    /// # Errors
+    /// As [`Task::of`].
+    pub fn all(
+        skills: &[&Skill],
+        drill: Drill,
+        mut watch: impl FnMut(usize) -> ControlFlow<()>,
+    ) -> Result<Vec<Self>> {
+        let mut exercises = Vec::with_capacity(skills.len());
+        let mut rising = Vec::new();
+        for skill in skills {
+            let (model, mind) = (&skill.model, &skill.mind);
+            let task = Task::of(skill)?;
+            let starts = match task {
+                Task::Rise(_) => {
+                    rising.push(exercises.len());
+                    Vec::new()
+                }
+                Task::Push => drill.pushes().begin(model, mind, drill.worlds)?,
+                Task::Fall => {
+                    let pushes = Pushes {
+                        impulse: FALLS,
+                        sites: EVERYWHERE,
+                        ..drill.pushes()
+                    };
+                    pushes.begin(model, mind, drill.worlds)?
+                }
+            };
+            exercises.push(Self {
+                contract: skill.contract.clone(),
+                task,
+                starts,
+            });
+        }
+        if let Some(Skill { model, mind, .. }) = rising.first().map(|first| skills[*first]) {
+            let source = starts::Source {
+                worlds: drill.worlds,
+                heaps: HEAPS,
+                patience: drill.patience,
+                seed: drill.seed,
+            };
+            let contracts: Vec<&Contract> = rising.iter().map(|r| &skills[*r].contract).collect();
+            let others: usize = exercises.iter().map(Self::starts).sum();
+            let watch = |found| watch(others + found);
+            let found = starts(source, drill.starts, model, &contracts, mind, watch)?;
+            for (place, starts) in rising.iter().zip(found) {
+                exercises[*place].starts = starts;
             }
-            Task::Push => drill.pushes().begin(model, mind, drill.worlds)?,
-            Task::Fall => {
-                let pushes = Pushes {
-                    impulse: FALLS,
-                    sites: EVERYWHERE,
-                    ..drill.pushes()
-                };
-                pushes.begin(model, mind, drill.worlds)?
-            }
-        };
-        Ok(Self {
-            contract: contract.clone(),
-            task,
-            starts,
-        })
+        }
+        Ok(exercises)
     }
 
     /// The task.

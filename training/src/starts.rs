@@ -1,9 +1,10 @@
 //! Situations in which a controller takes over: heaps on the floor and falls, in randomised worlds.
 //!
-//! seed, index → random heap or push → rollout under the rest of the repertoire until the
-//! controller's pre-condition holds → [`Simulation`] to be cloned for every candidate.
+//! seed, index → random heap or push → rollout under the repertoire until the controller takes over
+//! → [`Simulation`] to be cloned for every candidate.
 //!
-//! Starts do not depend on the controller's own numbers, only on its contract and the others'.
+//! Starts do not depend on the controller's own numbers, only on its contract and the others'. One
+//! rollout serves any number of controllers.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -26,8 +27,6 @@ const LONGEST: f64 = 7.0;
 const DROP: f64 = 0.02;
 /// N·s; pushes that nobody withstands.
 const PUSHES: [f64; 2] = [70.0, 260.0];
-/// Starts are looked for in so many situations for each that is asked for.
-const PATIENCE: usize = 50;
 /// So many without a single start are enough to give up.
 const HOPELESS: usize = 96;
 /// s; when characters are pushed.
@@ -40,13 +39,16 @@ pub struct Source {
     pub worlds: Worlds,
     /// Part of the starts that begin as heaps; the others are pushed over.
     pub heaps: f64,
+    /// Starts are looked for in so many situations for each that is asked for.
+    pub patience: usize,
     /// Fixes everything random.
     pub seed: u64,
 }
 
-/// The first `count` starts, by index, in which the repertoire hands over to the controller with this
-/// contract, or, if it acts only on command, in which its pre-condition holds. There are fewer where
-/// that is too rare. `watch` sees how many there are so far and may end the work.
+/// For each contract the first `count` starts, by index, in which the repertoire hands over to the
+/// controller with this contract, or, if it acts only on command, in which its pre-condition holds.
+/// There are fewer where that is too rare. `watch` sees how many there are so far, of all contracts,
+/// and may end the work.
 ///
 /// # Errors
 /// A mind for another character.
@@ -54,37 +56,50 @@ pub fn starts(
     source: Source,
     count: usize,
     model: &Arc<Model>,
-    contract: &Contract,
+    contracts: &[&Contract],
     before: &Supervisor,
     mut watch: impl FnMut(usize) -> ControlFlow<()>,
-) -> Result<Vec<Simulation>> {
-    let mut found: Vec<Simulation> = Vec::with_capacity(count);
+) -> Result<Vec<Vec<Simulation>>> {
+    let mut found: Vec<Vec<Simulation>> = vec![Vec::with_capacity(count); contracts.len()];
     let mut next = 0;
-    let most = (PATIENCE * count).max(HOPELESS);
+    let most = (source.patience * count).max(HOPELESS);
     // In batches of fixed size, so that the number of threads changes nothing.
     let size = count.clamp(8, 32);
-    while found.len() < count && next < most && (next < HOPELESS || !found.is_empty()) {
-        let batch: Vec<Option<Simulation>> = (next..next + size)
+    while next < most {
+        let hopeful = |starts: &Vec<Simulation>| next < HOPELESS || !starts.is_empty();
+        let missing: Vec<usize> = (0..contracts.len())
+            .filter(|c| found[*c].len() < count && hopeful(&found[*c]))
+            .collect();
+        if missing.is_empty() {
+            break;
+        }
+        let wanted: Vec<&Contract> = missing.iter().map(|c| contracts[*c]).collect();
+        let batch: Vec<Vec<Option<Simulation>>> = (next..next + size)
             .into_par_iter()
-            .map(|i| start(source, i as u64, model, contract, before))
+            .map(|i| situation(source, i as u64, model, &wanted, before))
             .collect::<Result<_>>()?;
-        found.extend(batch.into_iter().flatten());
-        found.truncate(count);
+        for starts in batch {
+            for (c, start) in missing.iter().zip(starts) {
+                found[*c].extend(start);
+            }
+        }
+        found.iter_mut().for_each(|starts| starts.truncate(count));
         next += size;
-        if watch(found.len()).is_break() {
+        if watch(found.iter().map(Vec::len).sum()).is_break() {
             break;
         }
     }
     Ok(found)
 }
 
-fn start(
+/// One situation, up to where each of the contracts' controllers takes over in it.
+fn situation(
     source: Source,
     index: u64,
     model: &Arc<Model>,
-    contract: &Contract,
+    contracts: &[&Contract],
     before: &Supervisor,
-) -> Result<Option<Simulation>> {
+) -> Result<Vec<Option<Simulation>>> {
     let mut rng = ChaCha8Rng::seed_from_u64(source.seed);
     rng.set_stream(index);
     let mut scenario = Scenario::standing(&model.name, LONGEST);
@@ -110,17 +125,35 @@ fn start(
         run.push(0, &model.links[link].name, sign * impulse)?;
     }
     let begun = run.clone();
+    let mut taken: Vec<Option<u32>> = vec![None; contracts.len()];
     let mut steps = 0;
-    while run.time() < LONGEST {
+    while run.time() < LONGEST && taken.iter().any(Option::is_none) {
         run.step();
-        let taken = run.actors()[0].mind.active() == Some(&contract.name);
-        if taken || contract.weight == 0 && contract.precondition.holds(run.sensors(0)) {
-            // Up to the step in which it took over, so that what it did in it does not matter.
-            let mut before = begun;
-            (0..steps).for_each(|_| before.step());
-            return Ok(Some(before));
+        for (contract, taken) in contracts.iter().zip(&mut taken) {
+            if taken.is_none() && takes_over(contract, &run) {
+                *taken = Some(steps);
+            }
         }
         steps += 1;
     }
-    Ok(None)
+    // Up to the step in which it took over, so that what it did in it does not matter.
+    let mut starts = vec![None; contracts.len()];
+    let last = taken.iter().flatten().max().copied();
+    let mut again = begun;
+    for step in 0..last.map_or(0, |last| last + 1) {
+        for (start, _) in starts
+            .iter_mut()
+            .zip(&taken)
+            .filter(|(_, taken)| **taken == Some(step))
+        {
+            *start = Some(again.clone());
+        }
+        again.step();
+    }
+    Ok(starts)
+}
+
+fn takes_over(contract: &Contract, run: &Simulation) -> bool {
+    run.actors()[0].mind.active() == Some(&contract.name)
+        || contract.weight == 0 && contract.precondition.holds(run.sensors(0))
 }
