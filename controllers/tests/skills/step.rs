@@ -10,9 +10,10 @@ use super::{built, shipped, switches};
 /// m; soles that are no farther apart are parallel.
 const PARALLEL: f64 = 0.06;
 
-/// The humanoid, 6 s after a push of its chest.
-fn pushed(impulse: f64) -> Simulation {
-    let scenario = Scenario::standing("humanoid", 7.0);
+/// The humanoid, 6 s after a push of its chest, on ground of this friction.
+fn pushed(impulse: f64, friction: f64) -> Simulation {
+    let mut scenario = Scenario::standing("humanoid", 7.0);
+    scenario.settings.friction = friction;
     let mut run = Simulation::new(&scenario, &registry()).unwrap();
     run.run(1.0);
     run.push(0, "torso", impulse).unwrap();
@@ -23,7 +24,7 @@ fn pushed(impulse: f64) -> Simulation {
 #[test]
 fn a_push_that_balance_does_not_take_ends_on_parallel_feet_after_a_step() {
     for impulse in [65.0, -65.0] {
-        let run = pushed(impulse);
+        let run = pushed(impulse, 1.0);
         let told = switches(&run);
         assert!(told.iter().any(|s| s.1 == "protective_step"), "{told:?}");
         assert!(told.iter().all(|s| s.1 != "fall"), "{told:?}");
@@ -39,6 +40,16 @@ fn a_push_that_balance_does_not_take_ends_on_parallel_feet_after_a_step() {
         // Away from where it stood, the way it was pushed.
         assert!(0.5 * (a + b) * impulse.signum() > 0.1, "{a} {b}");
     }
+}
+
+#[test]
+fn feet_that_slid_apart_under_a_bow_are_closed_by_a_step() {
+    let run = pushed(41.0, 0.6);
+    let told = switches(&run);
+    let slid = |s: &(f64, &str, &str)| s.1 == "protective_step" && s.2.contains("feet_apart");
+    assert!(told.iter().any(slid), "{told:?}");
+    assert!(run.outcome(0).standing, "{told:?}");
+    assert!(run.sensors(0).feet_apart() < PARALLEL, "{told:?}");
 }
 
 #[test]

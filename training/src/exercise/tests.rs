@@ -64,6 +64,17 @@ fn starts_and_scores_are_the_same_on_any_number_of_threads() {
 }
 
 #[test]
+fn skills_that_are_exercised_together_start_as_each_does_alone() {
+    let (_folder, skills) = skills(TUCK);
+    let [tuck, never] = ["tuck", "never"].map(|name| Skill::find(&skills, name).unwrap());
+    let drill = Drill::training(3, 5);
+    let together = Exercise::all(&[never, tuck], drill, |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!(together[0].starts(), 0);
+    let digests: Vec<String> = together[1].starts.iter().map(Simulation::digest).collect();
+    assert_eq!(digests, exercised(1, tuck, drill).0);
+}
+
+#[test]
 fn a_fall_is_told_by_its_kind_and_scored_by_how_it_lands() {
     let model = Model::load("humanoid").unwrap();
     let registry = aplomb_controllers::registry();
