@@ -28,6 +28,8 @@ use crate::target::{NamedAngles, bounded, overlay};
 const HOLDS: f64 = 0.6;
 /// Height of the centre of mass on landing, m.
 const LANDS: f64 = 0.4;
+/// Pitch of the trunk that leaves no doubt which way it falls, rad.
+const DOUBTLESS: f64 = 0.8;
 
 /// One way of falling.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -56,7 +58,8 @@ pub struct Over {
     /// Pitch of the trunk on landing, as foreseen in the air, beyond which it falls this way, rad;
     /// π/2 is on the back, π on the head.
     pub beyond: f64,
-    /// The poses.
+    /// The poses to reach and to give. It then lies down forward or backward, as it has come to lie:
+    /// this way's own `lie` and `lower` are not used.
     pub way: Way,
 }
 
@@ -158,7 +161,7 @@ impl Fall {
     /// to leave no doubt.
     fn direction(&self, now: &Sensors) -> Direction {
         let pitch = now.trunk_pitch();
-        let forward = if pitch.abs() > 0.8 {
+        let forward = if pitch.abs() > DOUBTLESS {
             pitch < 0.0
         } else {
             match now.support_centre() {
@@ -195,13 +198,12 @@ impl Controller for Fall {
 
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
         let pitch = now.trunk_pitch();
-        let is_forward = self.direction == Direction::Forward;
         if self.phase == 0 && now.is_down() {
             self.begin_phase(now, 1);
         } else if self.phase == 0 && self.direction != Direction::Over {
-            let turned = pitch.abs() > 0.8 && (pitch < 0.0) != is_forward;
             let direction = self.direction(now);
-            if turned || direction == Direction::Over {
+            let sure = pitch.abs() > DOUBTLESS || direction == Direction::Over;
+            if sure && direction != self.direction {
                 self.direction = direction;
                 self.begin_phase(now, 0);
             }

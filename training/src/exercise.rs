@@ -192,57 +192,57 @@ impl Exercise {
     }
 
     /// The exercises of several skills of one repertoire, as [`Self::new`] makes each, in less time.
-    /// `watch` sees the starts of all together.
+    /// `watch` sees the starts in heaps and falls, of all together.
     ///
     /// # Errors
     /// As [`Task::of`].
     pub fn all(
         skills: &[&Skill],
         drill: Drill,
-        mut watch: impl FnMut(usize) -> ControlFlow<()>,
+        watch: impl FnMut(usize) -> ControlFlow<()>,
     ) -> Result<Vec<Self>> {
-        let mut exercises = Vec::with_capacity(skills.len());
-        let mut rising = Vec::new();
-        for skill in skills {
-            let (model, mind) = (&skill.model, &skill.mind);
-            let task = Task::of(skill)?;
-            let starts = match task {
-                Task::Rise(_) => {
-                    rising.push(exercises.len());
-                    Vec::new()
-                }
-                Task::Push => drill.pushes().begin(model, mind, drill.worlds)?,
-                Task::Fall => {
-                    let pushes = Pushes {
-                        impulse: FALLS,
-                        sites: EVERYWHERE,
-                        ..drill.pushes()
-                    };
-                    pushes.begin(model, mind, drill.worlds)?
-                }
+        let task = |skill: &&Skill| Task::of(skill);
+        let tasks: Vec<Task> = skills.iter().map(task).collect::<Result<_>>()?;
+        let rising: Vec<&Contract> = skills
+            .iter()
+            .zip(&tasks)
+            .filter(|(_, task)| matches!(task, Task::Rise(_)))
+            .map(|(skill, _)| &skill.contract)
+            .collect();
+        let risen = match skills.first() {
+            Some(Skill { model, mind, .. }) => {
+                let source = starts::Source {
+                    worlds: drill.worlds,
+                    heaps: HEAPS,
+                    patience: drill.patience,
+                    seed: drill.seed,
+                };
+                starts(source, drill.starts, model, &rising, mind, watch)?
+            }
+            None => Vec::new(),
+        };
+        let mut risen = risen.into_iter();
+        let one = |(skill, task): (&&Skill, Task)| {
+            let pushes = match task {
+                Task::Rise(_) => None,
+                Task::Push => Some(drill.pushes()),
+                Task::Fall => Some(Pushes {
+                    impulse: FALLS,
+                    sites: EVERYWHERE,
+                    ..drill.pushes()
+                }),
             };
-            exercises.push(Self {
+            let starts = match pushes {
+                Some(pushes) => pushes.begin(&skill.model, &skill.mind, drill.worlds)?,
+                None => risen.next().unwrap_or_default(),
+            };
+            Ok(Self {
                 contract: skill.contract.clone(),
                 task,
                 starts,
-            });
-        }
-        if let Some(Skill { model, mind, .. }) = rising.first().map(|first| skills[*first]) {
-            let source = starts::Source {
-                worlds: drill.worlds,
-                heaps: HEAPS,
-                patience: drill.patience,
-                seed: drill.seed,
-            };
-            let contracts: Vec<&Contract> = rising.iter().map(|r| &skills[*r].contract).collect();
-            let others: usize = exercises.iter().map(Self::starts).sum();
-            let watch = |found| watch(others + found);
-            let found = starts(source, drill.starts, model, &contracts, mind, watch)?;
-            for (place, starts) in rising.iter().zip(found) {
-                exercises[*place].starts = starts;
-            }
-        }
-        Ok(exercises)
+            })
+        };
+        skills.iter().zip(tasks).map(one).collect()
     }
 
     /// The task.

@@ -138,15 +138,13 @@ fn situation(
     }
     // Up to the step in which it took over, so that what it did in it does not matter.
     let mut starts = vec![None; contracts.len()];
-    let last = taken.iter().flatten().max().copied();
+    let steps = taken.iter().flatten().max().map_or(0, |last| last + 1);
     let mut again = begun;
-    for step in 0..last.map_or(0, |last| last + 1) {
-        for (start, _) in starts
-            .iter_mut()
-            .zip(&taken)
-            .filter(|(_, taken)| **taken == Some(step))
-        {
-            *start = Some(again.clone());
+    for step in 0..steps {
+        for (start, taken) in starts.iter_mut().zip(&taken) {
+            if *taken == Some(step) {
+                *start = Some(again.clone());
+            }
         }
         again.step();
     }

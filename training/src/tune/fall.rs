@@ -71,8 +71,10 @@ impl Tunable for FallSpec {
                 }
                 (&mut over.way, rest)
             }
-            Some((_, rest)) => (&mut self.backward, rest),
-            None => (&mut self.backward, name),
+            _ => (
+                &mut self.backward,
+                name.strip_prefix("backward.").unwrap_or(name),
+            ),
         };
         match rest.split_once('.') {
             Some(("reach", joint)) => way.reach.entry(joint.to_owned()).or_insert(0.0),
