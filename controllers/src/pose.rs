@@ -47,9 +47,13 @@ pub struct PoseState {
     /// Stiffness relative to the nominal servos.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub stiffness: f64,
-    /// The state that follows, from 0; the next one if left out.
+    /// The state that follows when the time is up, from 0; the next one if left out. The number of
+    /// states is the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub next: Option<usize>,
+    /// The state that follows when `until` ends this one; as `next` if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub then: Option<usize>,
 }
 
 fn most() -> f64 {
@@ -132,6 +136,7 @@ struct Key {
     expects: Condition,
     stiffness: f64,
     next: usize,
+    then: usize,
 }
 
 /// The controller.
@@ -178,7 +183,10 @@ impl Spec for PoseSpec {
             bounded(&at, "ease", state.ease, 0.0, 1.0)?;
             bounded(&at, "stiffness", state.stiffness, 0.0, 3.0)?;
             let next = state.next.unwrap_or(i + 1);
-            bounded(&at, "next", next as f64, 0.0, self.states.len() as f64)?;
+            let then = state.then.unwrap_or(next);
+            let most = self.states.len() as f64;
+            bounded(&at, "next", next as f64, 0.0, most)?;
+            bounded(&at, "then", then as f64, 0.0, most)?;
             let mut until = state.until.clone();
             until.resolve(model)?;
             let mut expects = state.expects.clone();
@@ -195,6 +203,7 @@ impl Spec for PoseSpec {
                 expects,
                 stiffness: state.stiffness,
                 next,
+                then,
             });
         }
         let mut feedback = Vec::new();
@@ -259,7 +268,7 @@ impl Controller for PoseController {
         let key = &self.keys[self.key];
         let duration = key.duration * self.slowness;
         if key.until.holds(now) {
-            self.begin(now, key.next);
+            self.begin(now, key.then);
         } else if now.time - self.since >= duration && self.ended.is_none() {
             if let Some(refusal) = key.expects.first_failure(now) {
                 self.missed = Some(format!("after state {}: expected {refusal}", self.key));

@@ -8,9 +8,8 @@ use aplomb_framework::simulation::Simulation;
 
 use super::{humanoid, switches};
 
-/// A pose that lifts an arm for 0.3 s in each of its two states, and expects something after each.
-fn waves(expects: [&str; 2]) -> Simulation {
-    let [first, second] = expects;
+/// Lifts an arm, in these states.
+fn waves(states: &str) -> Simulation {
     let text = format!(
         r#"(name: "waving", fallback: "rest", controllers: [
             Here((
@@ -19,10 +18,7 @@ fn waves(expects: [&str; 2]) -> Simulation {
                     name: "wave", weight: 5, precondition: Always,
                     postcondition: Within(feature: "angle.shoulder_r", min: 0.3),
                 ),
-                spec: (states: [
-                    (pose: {{"shoulder_r": 0.2}}, duration: 0.3, expects: {first}),
-                    (pose: {{"shoulder_r": 0.6}}, duration: 0.3, expects: {second}),
-                ]),
+                spec: (states: [{states}]),
             )),
             File("skills/rest.ron"),
         ])"#
@@ -39,12 +35,28 @@ fn waves(expects: [&str; 2]) -> Simulation {
 #[test]
 fn a_state_that_ends_short_of_what_it_expects_fails_and_says_so() {
     let high = r#"Within(feature: "angle.shoulder_r", min: 2.0)"#;
-    for (expects, after) in [([high, "Always"], 0), (["Always", high], 1)] {
-        let run = waves(expects);
+    for (first, second, after) in [(high, "Always", 0), ("Always", high, 1)] {
+        let run = waves(&format!(
+            r#"(pose: {{"shoulder_r": 0.2}}, duration: 0.3, expects: {first}),
+            (pose: {{"shoulder_r": 0.6}}, duration: 0.3, expects: {second})"#
+        ));
         let (time, _, why) = switches(&run)[1];
         let told = format!("failed: after state {after}: expected angle.shoulder_r ≥ 2 (is ");
         assert!(why.starts_with(&told), "{why}");
         let due = 0.3 * f64::from(after + 1);
         assert!((time - due).abs() < 0.005, "{time}");
+    }
+}
+
+#[test]
+fn a_state_leads_elsewhere_when_its_condition_holds_than_when_its_time_is_up() {
+    // The first state ends at once, or never before its time; the second lifts the arm.
+    for (until, lifted) in [("Always", false), ("Never", true)] {
+        let run = waves(&format!(
+            r#"(duration: 0.1, until: {until}, then: 2),
+            (pose: {{"shoulder_r": 0.6}}, duration: 0.3)"#
+        ));
+        let ended = switches(&run).get(1).map(|(.., why)| *why);
+        assert_eq!(ended == Some("succeeded"), lifted, "{ended:?}");
     }
 }
