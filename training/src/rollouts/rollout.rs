@@ -300,8 +300,6 @@ mod tests {
         let mut trial = trial("balance");
         trial.disturbance.force.most = 0.0;
         trial.disturbance.offset = 0.0;
-        trial.disturbance.starts[0].spread = 0.0;
-        trial.disturbance.starts[0].tilt = 0.0;
         let stood = sample(&trial, 0);
         assert!(stood.success && stood.manual);
         trial.disturbance.starts[0].pitch = 1.5;
