@@ -246,7 +246,7 @@ impl PoseController {
             self.key = key;
             self.since = now.time;
             self.from.copy_from_slice(&self.target);
-        } else if self.ended.is_none() {
+        } else {
             self.ended = Some(now.time);
         }
     }
@@ -267,9 +267,11 @@ impl Controller for PoseController {
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
         let key = &self.keys[self.key];
         let duration = key.duration * self.slowness;
-        if key.until.holds(now) {
+        if self.ended.is_some() {
+            // The last target is held.
+        } else if key.until.holds(now) {
             self.begin(now, key.then);
-        } else if now.time - self.since >= duration && self.ended.is_none() {
+        } else if now.time - self.since >= duration {
             if let Some(refusal) = key.expects.first_failure(now) {
                 self.missed = Some(format!("after state {}: expected {refusal}", self.key));
             }
