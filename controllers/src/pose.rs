@@ -250,6 +250,19 @@ impl PoseController {
             self.ended = Some(now.time);
         }
     }
+
+    /// Begins the state that follows, if this one is over.
+    fn advance(&mut self, now: &Sensors) {
+        let key = &self.keys[self.key];
+        if key.until.holds(now) {
+            self.begin(now, key.then);
+        } else if now.time - self.since >= key.duration * self.slowness {
+            if let Some(refusal) = key.expects.first_failure(now) {
+                self.missed = Some(format!("after state {}: expected {refusal}", self.key));
+            }
+            self.begin(now, key.next);
+        }
+    }
 }
 
 impl Controller for PoseController {
@@ -265,17 +278,8 @@ impl Controller for PoseController {
     }
 
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
-        let key = &self.keys[self.key];
-        let duration = key.duration * self.slowness;
-        if self.ended.is_some() {
-            // The last target is held.
-        } else if key.until.holds(now) {
-            self.begin(now, key.then);
-        } else if now.time - self.since >= duration {
-            if let Some(refusal) = key.expects.first_failure(now) {
-                self.missed = Some(format!("after state {}: expected {refusal}", self.key));
-            }
-            self.begin(now, key.next);
+        if self.ended.is_none() {
+            self.advance(now);
         }
         let key = &self.keys[self.key];
         let duration = key.duration * self.slowness;
