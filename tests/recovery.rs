@@ -1,6 +1,8 @@
 //! Whatever happens to the humanoid, it ends on its feet: the scenarios of `tests/scenarios/recovery`, each with what it expects.
 
+use aplomb::framework::scenario::Scenario;
 use aplomb::framework::simulation::Simulation;
+use aplomb::framework::trajectory::EventKind;
 
 #[test]
 fn every_scenario_of_recovery_ends_as_it_expects() {
@@ -32,4 +34,36 @@ fn the_story_goes_from_a_push_over_a_fall_and_a_roll_to_standing_and_stepping() 
     let mut run = Simulation::new(&scenario, &aplomb::controllers::registry()).unwrap();
     run.run(scenario.duration);
     assert_eq!(run.disappointment(&scenario.expect), None);
+}
+
+#[test]
+fn a_rise_that_does_not_get_going_gives_up_within_two_seconds() {
+    let registry = aplomb::controllers::registry();
+    for (pitch, first) in [(1.57, "rise_supine"), (-1.57, "free_arms")] {
+        let mut scenario = Scenario::standing("humanoid", 6.0);
+        scenario.characters[0].start.pitch = pitch;
+        scenario.settings.torque = 0.2;
+        let mut run = Simulation::new(&scenario, &registry).unwrap();
+        run.run(scenario.duration);
+        let mut begun = None;
+        let mut lasted = Vec::new();
+        for event in run.events() {
+            let EventKind::Switch { from, to, why, .. } = &event.kind else {
+                continue;
+            };
+            if let (Some(begun), Some(first)) =
+                (begun.take(), from.as_deref().filter(|f| *f == first))
+            {
+                assert!(why.starts_with("failed"), "{first}: {why}");
+                lasted.push(event.time - begun);
+            }
+            if to == first {
+                begun = Some(event.time);
+            }
+        }
+        assert!(
+            !lasted.is_empty() && lasted.iter().all(|s| *s < 2.0),
+            "{first}: {lasted:?}"
+        );
+    }
 }

@@ -39,10 +39,10 @@ pub struct PoseState {
     #[serde(default = "most", skip_serializing_if = "is_most")]
     pub ease: f64,
     /// Ends the state early when it holds.
-    #[serde(default = "never", skip_serializing_if = "is_never")]
+    #[serde(default = "never", skip_serializing_if = "Condition::is_never")]
     pub until: Condition,
     /// What must hold when the state's time is up, or the controller has failed.
-    #[serde(default = "always", skip_serializing_if = "is_always")]
+    #[serde(default = "always", skip_serializing_if = "Condition::is_always")]
     pub expects: Condition,
     /// Stiffness relative to the nominal servos.
     #[serde(default = "one", skip_serializing_if = "is_one")]
@@ -72,20 +72,12 @@ fn always() -> Condition {
     Condition::Always
 }
 
-fn is_always(c: &Condition) -> bool {
-    *c == Condition::Always
-}
-
 fn is_most(x: &f64) -> bool {
     *x == most()
 }
 
 fn is_one(x: &f64) -> bool {
     *x == one()
-}
-
-fn is_never(c: &Condition) -> bool {
-    *c == Condition::Never
 }
 
 fn is_false(b: &bool) -> bool {

@@ -132,6 +132,18 @@ impl Condition {
         self.first_failure(now).is_none()
     }
 
+    /// Whether it is the one that never holds.
+    #[must_use]
+    pub fn is_never(&self) -> bool {
+        *self == Self::Never
+    }
+
+    /// Whether it is the one that always holds.
+    #[must_use]
+    pub fn is_always(&self) -> bool {
+        *self == Self::Always
+    }
+
     /// Whether any of its clauses was learned.
     #[must_use]
     pub fn is_learned(&self) -> bool {

@@ -20,24 +20,24 @@ pub struct Contract {
     pub weight: u32,
     /// Whether suitability is weight × probability of success where the pre-condition holds, as
     /// far as the pre-condition was learned, instead of weight × 1.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_false")]
     pub confident: bool,
     /// Where the controller can take over.
     pub precondition: Condition,
     /// Where it has succeeded; `Never` stays on until it fails or something else is commanded.
-    #[serde(default = "never")]
+    #[serde(default = "never", skip_serializing_if = "Condition::is_never")]
     pub postcondition: Condition,
     /// What holds as long as all goes well. Not held while active: failing, arbitrate now.
-    #[serde(default = "always")]
+    #[serde(default = "always", skip_serializing_if = "Condition::is_always")]
     pub expected: Condition,
     /// s for which the post-condition must hold without a break.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub hold: f64,
     /// s after which a controller that has not succeeded has failed.
-    #[serde(default = "forever")]
+    #[serde(default = "forever", skip_serializing_if = "is_forever")]
     pub patience: f64,
     /// The commands that it answers to; its own name if none are listed.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub commands: Vec<Answer>,
 }
 
@@ -51,6 +51,18 @@ fn always() -> Condition {
 
 fn forever() -> f64 {
     f64::INFINITY
+}
+
+fn is_false(b: &bool) -> bool {
+    !b
+}
+
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
+}
+
+fn is_forever(x: &f64) -> bool {
+    *x == forever()
 }
 
 impl Contract {

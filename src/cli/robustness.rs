@@ -31,7 +31,8 @@ const TORQUES: [f64; 3] = [0.85, 1.0, 1.15];
 /// For every friction 0.6, 0.8, 1, 1.2 and torque 0.85, 1, 1.15 (relative to the character's): from
 /// how many starts a controller, followed by the rest of the repertoire, comes to its goal without
 /// any failure. It is taken from where the repertoire hands over to it, half of the times in a heap
-/// on the floor, half in a fall after a push. A step that takes over from standing is pushed on the
+/// on the floor, half in a fall after a push; where that is too rare, the other starts begin as its
+/// rollouts for `train preconditions` do. A step that takes over from standing is pushed on the
 /// trunk instead, by 40 to 75 N·s either way, and has to stand again within 6 s. A controller of kind
 /// fall is pushed on trunk, root and head in turn, by 60 to 300 N·s, and has to touch the ground with
 /// the hands, or backward with hands or seat, before head and trunk.
@@ -68,6 +69,8 @@ struct Cell {
     torque: f64,
     /// As asked for, or fewer where the repertoire seldom hands over to the controller.
     starts: usize,
+    /// Of these, how many begin as the controller's own rollouts do, not in a heap or a fall.
+    own_starts: usize,
     reached: usize,
     /// None without starts.
     fraction: Option<f64>,
@@ -169,6 +172,7 @@ impl RobustnessArgs {
                     friction,
                     torque,
                     starts,
+                    own_starts: exercise.own_starts(),
                     reached,
                     fraction: (starts > 0).then(|| reached as f64 / starts as f64),
                 });
@@ -231,6 +235,11 @@ fn print(out: &mut dyn Write, report: &Report) -> std::io::Result<()> {
                 cell.torque
             )?,
             None => writeln!(out, "\nthe repertoire never hands over to it")?,
+        }
+        let own: usize = row.cells.iter().map(|c| c.own_starts).sum();
+        if own > 0 {
+            let all: usize = row.cells.iter().map(|c| c.starts).sum();
+            writeln!(out, "{own} of {all} starts begin as its rollouts do")?;
         }
     }
     writeln!(out, "\n{:.1} s", report.wall_s)

@@ -1,9 +1,9 @@
 """Compares a learned pre-condition with scikit-learn's machines on the same samples.
 
-    python3 compare_scikit.py DIR CONTROLLER
+    python3 compare_scikit.py DIR [CONTROLLER...]
 
-Reads DIR/CONTROLLER.{train,test}.csv and DIR/CONTROLLER.report.json. Run by hand; needs numpy and
-scikit-learn, on which nothing else depends.
+Reads DIR/CONTROLLER.{train,test}.csv and DIR/CONTROLLER.report.json, of all controllers if none is named.
+Run by hand; needs numpy and scikit-learn, on which nothing else depends.
 """
 
 import csv
@@ -30,20 +30,18 @@ def read(path):
     return header[:-1], values[:, :-1], values[:, -1] == 1
 
 
-def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    folder, controller = Path(sys.argv[1]), sys.argv[2]
+def compare(folder, controller):
+    """Prints the figures of the report and of scikit-learn's machines."""
     features, train, train_success = read(folder / f"{controller}.train.csv")
     test_features, test, test_success = read(folder / f"{controller}.test.csv")
     if features != test_features:
-        sys.exit("the two sets have different columns")
+        sys.exit(f"{controller}: the two sets have different columns")
 
     mean, scale = train.mean(axis=0), train.std(axis=0)
     scale[scale <= 1e-12 * np.abs(mean)] = 1
     train, test = (train - mean) / scale, (test - mean) / scale
 
-    print(f"{'':24}{'accuracy':>10}{'balanced':>10}")
+    print(f"{controller:24}{'accuracy':>10}{'balanced':>10}")
     report = json.loads((folder / f"{controller}.report.json").read_text())
     svm, neighbour = report["svm"], report["nn"]
     for name, found in [(f"report: {svm['kernel']}", svm), ("report: neighbour", neighbour)]:
@@ -67,7 +65,16 @@ def main():
         accuracy = accuracy_score(test_success, foretold)
         balanced = balanced_accuracy_score(test_success, foretold)
         chosen = ", ".join(f"{k} {v:.3g}" for k, v in search.best_params_.items())
-        print(f"{'scikit-learn: ' + name:24}{accuracy:10.4f}{balanced:10.4f}  {chosen}")
+        print(f"{'scikit-learn: ' + name:24}{accuracy:10.4f}{balanced:10.4f}  {chosen}", flush=True)
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    folder = Path(sys.argv[1])
+    there = sorted(path.name.removesuffix(".report.json") for path in folder.glob("*.report.json"))
+    for controller in sys.argv[2:] or there:
+        compare(folder, controller)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@
 //! over from a character on its feet alone, and leaves it standing, is pushed less ([`stepping`]);
 //! it is told from its contract: its pre-condition refuses every centre of mass below 0.7 of the
 //! standing height. Any other is taken from where the repertoire hands over to it, in heaps on the
-//! floor and in falls, to its goal ([`rising`]).
+//! floor, in falls and, where these are too few, after its own disturbance, to its goal ([`rising`]).
 
 #[cfg(test)]
 mod tests;
@@ -26,8 +26,10 @@ use rayon::prelude::*;
 use crate::falling;
 use crate::pushes::{Pushes, Site, is_forward};
 use crate::rising::{self, Goal};
+use crate::rollouts::disturbance::{self, Disturbance};
+use crate::rollouts::disturbed::Disturbed;
 use crate::skill::Skill;
-use crate::starts::{self, starts};
+use crate::starts::{self, Starts, Wanted, starts};
 use crate::stepping;
 use crate::worlds::Worlds;
 
@@ -122,7 +124,7 @@ impl Drill {
             impulse: [40.0, 90.0],
             sites: &[Site::Trunk, Site::Trunk, Site::Root],
             starts,
-            patience: 50,
+            patience: 10,
             seed,
         }
     }
@@ -136,7 +138,7 @@ impl Drill {
             impulse: [40.0, 75.0],
             sites: &[Site::Trunk],
             starts,
-            patience: 10,
+            patience: 4,
             seed,
         }
     }
@@ -168,12 +170,25 @@ impl Score {
     };
 }
 
+/// With the shipped disturbance of its name, if there is one and it fits the character.
+fn wanted(skill: &Skill) -> Wanted<'_> {
+    let disturbed = || {
+        let source = disturbance::shipped(skill.name()).ok()?;
+        let disturbance = Disturbance::parse(&source, &skill.model).ok()?;
+        Disturbed::new(disturbance, &skill.model, &skill.mind).ok()
+    };
+    Wanted {
+        contract: &skill.contract,
+        disturbed: disturbed(),
+    }
+}
+
 /// A task with its starts.
 #[derive(Debug, Clone)]
 pub struct Exercise {
     contract: Contract,
     task: Task,
-    starts: Vec<Simulation>,
+    starts: Starts,
 }
 
 impl Exercise {
@@ -203,11 +218,11 @@ impl Exercise {
     ) -> Result<Vec<Self>> {
         let task = |skill: &&Skill| Task::of(skill);
         let tasks: Vec<Task> = skills.iter().map(task).collect::<Result<_>>()?;
-        let rising: Vec<&Contract> = skills
+        let rising: Vec<Wanted> = skills
             .iter()
             .zip(&tasks)
             .filter(|(_, task)| matches!(task, Task::Rise(_)))
-            .map(|(skill, _)| &skill.contract)
+            .map(|(skill, _)| wanted(skill))
             .collect();
         let risen = match skills.first() {
             Some(Skill { model, mind, .. }) => {
@@ -233,7 +248,10 @@ impl Exercise {
                 }),
             };
             let starts = match pushes {
-                Some(pushes) => pushes.begin(&skill.model, &skill.mind, drill.worlds)?,
+                Some(pushes) => Starts {
+                    runs: pushes.begin(&skill.model, &skill.mind, drill.worlds)?,
+                    own: 0,
+                },
                 None => risen.next().unwrap_or_default(),
             };
             Ok(Self {
@@ -255,7 +273,13 @@ impl Exercise {
     /// seldom hands over to the controller.
     #[must_use]
     pub fn starts(&self) -> usize {
-        self.starts.len()
+        self.starts.runs.len()
+    }
+
+    /// How many of them begin as the controller's own rollouts do, for want of heaps and falls.
+    #[must_use]
+    pub fn own_starts(&self) -> usize {
+        self.starts.own
     }
 
     /// How well the controller does in a repertoire.
@@ -276,7 +300,7 @@ impl Exercise {
             }
         };
         // In the order of the starts, so that the number of threads does not change the sum.
-        let all: Vec<(f64, bool)> = self.starts.par_iter().enumerate().map(one).collect();
+        let all: Vec<(f64, bool)> = self.starts.runs.par_iter().enumerate().map(one).collect();
         Score {
             cost: all.iter().map(|(cost, _)| cost).sum::<f64>() / all.len().max(1) as f64,
             reached: all.iter().filter(|(_, reached)| *reached).count(),

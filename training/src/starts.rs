@@ -1,7 +1,8 @@
-//! Situations in which a controller takes over: heaps on the floor and falls, in randomised worlds.
+//! Situations in which a controller takes over: heaps on the floor and falls, in randomised worlds;
+//! where these seldom lead to it, those that its own rollouts begin with.
 //!
-//! seed, index → random heap or push → rollout under the repertoire until the controller takes over
-//! → [`Simulation`] to be cloned for every candidate.
+//! seed, index → random heap, push or disturbance → rollout under the repertoire until the controller
+//! takes over → [`Simulation`] to be cloned for every candidate.
 //!
 //! Starts do not depend on the controller's own numbers, only on its contract and the others'. One
 //! rollout serves any number of controllers.
@@ -19,6 +20,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
+use crate::rollouts::disturbed::Disturbed;
 use crate::worlds::Worlds;
 
 /// s for which a start is waited for.
@@ -31,6 +33,10 @@ const PUSHES: [f64; 2] = [70.0, 260.0];
 const HOPELESS: usize = 96;
 /// s; when characters are pushed.
 const PUSH_AT: f64 = 0.3;
+/// Random stream of the first of a controller's own situations.
+const OWN: u64 = 1 << 32;
+/// So many of these for each start that is missing.
+const OWN_PATIENCE: usize = 10;
 
 /// Where starts come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,16 +45,35 @@ pub struct Source {
     pub worlds: Worlds,
     /// Part of the starts that begin as heaps; the others are pushed over.
     pub heaps: f64,
-    /// Starts are looked for in so many situations for each that is asked for.
+    /// Starts are looked for in so many heaps and falls for each that is asked for.
     pub patience: usize,
     /// Fixes everything random.
     pub seed: u64,
 }
 
-/// For each contract the first `count` starts, by index, in which the repertoire hands over to the
-/// controller with this contract, or, if it acts only on command, in which its pre-condition holds.
-/// There are fewer where that is too rare. `watch` sees how many there are so far, of all contracts,
-/// and may end the work.
+/// A controller that starts are wanted for.
+#[derive(Debug)]
+pub struct Wanted<'a> {
+    /// Its contract.
+    pub contract: &'a Contract,
+    /// How its own rollouts begin, if that is known.
+    pub disturbed: Option<Disturbed>,
+}
+
+/// The starts of a controller.
+#[derive(Debug, Clone, Default)]
+pub struct Starts {
+    /// All, those of heaps and falls first.
+    pub runs: Vec<Simulation>,
+    /// How many begin as its own rollouts do.
+    pub own: usize,
+}
+
+/// For each controller the first `count` starts, by index, in which the repertoire hands over to it,
+/// or, if it acts only on command, in which its pre-condition holds. Where that is too rare in heaps
+/// and falls, the others begin as the controller's own rollouts do, up to where its pre-condition
+/// holds and it could be commanded; there are fewer where that is not known or does not help.
+/// `watch` sees how many there are so far, of all controllers, and may end the work.
 ///
 /// # Errors
 /// A mind for another character.
@@ -56,13 +81,76 @@ pub fn starts(
     source: Source,
     count: usize,
     model: &Arc<Model>,
-    contracts: &[&Contract],
+    wanted: &[Wanted],
     before: &Supervisor,
     mut watch: impl FnMut(usize) -> ControlFlow<()>,
+) -> Result<Vec<Starts>> {
+    let everyone: Vec<&Contract> = wanted.iter().map(|w| w.contract).collect();
+    let begin = |rng: &mut ChaCha8Rng| heap_or_push(source, rng, model, before);
+    let common = Streams {
+        seed: source.seed,
+        first: 0,
+        patience: source.patience,
+    };
+    let mut runs = search(common, count, &everyone, begin, &mut watch)?;
+    let own_streams = Streams {
+        seed: source.seed,
+        first: OWN,
+        patience: OWN_PATIENCE,
+    };
+    let mut own = vec![0; wanted.len()];
+    for (place, one) in wanted.iter().enumerate() {
+        let before_it = runs.iter().map(Vec::len).sum::<usize>();
+        let missing = count - runs[place].len();
+        if let Some(disturbed) = &one.disturbed
+            && missing > 0
+            && watch(before_it).is_continue()
+        {
+            let begin = |rng: &mut ChaCha8Rng| {
+                let mut run = disturbed.run(source.worlds.draw(rng), rng)?;
+                run.set_mind(0, before.clone());
+                Ok(run)
+            };
+            let mut watch = |found| watch(before_it + found);
+            let commanded = Contract {
+                weight: 0,
+                ..one.contract.clone()
+            };
+            let found = search(own_streams, missing, &[&commanded], begin, &mut watch)?;
+            let found: Vec<Simulation> = found.into_iter().flatten().collect();
+            own[place] = found.len();
+            runs[place].extend(found);
+        }
+    }
+    let starts = runs.into_iter().zip(own);
+    Ok(starts.map(|(runs, own)| Starts { runs, own }).collect())
+}
+
+/// Which situations are looked through.
+#[derive(Clone, Copy)]
+struct Streams {
+    seed: u64,
+    /// Random stream of the first.
+    first: u64,
+    /// So many for each start that is asked for.
+    patience: usize,
+}
+
+/// Looks through situations for `count` starts of each contract.
+fn search(
+    Streams {
+        seed,
+        first,
+        patience,
+    }: Streams,
+    count: usize,
+    contracts: &[&Contract],
+    begin: impl Fn(&mut ChaCha8Rng) -> Result<Simulation> + Sync,
+    watch: &mut impl FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Vec<Vec<Simulation>>> {
     let mut found: Vec<Vec<Simulation>> = vec![Vec::with_capacity(count); contracts.len()];
     let mut next = 0;
-    let most = (source.patience * count).max(HOPELESS);
+    let most = (patience * count).max(HOPELESS);
     // In batches of fixed size, so that the number of threads changes nothing.
     let size = count.clamp(8, 32);
     while next < most {
@@ -76,7 +164,11 @@ pub fn starts(
         let wanted: Vec<&Contract> = missing.iter().map(|c| contracts[*c]).collect();
         let batch: Vec<Vec<Option<Simulation>>> = (next..next + size)
             .into_par_iter()
-            .map(|i| situation(source, i as u64, model, &wanted, before))
+            .map(|i| {
+                let mut rng = ChaCha8Rng::seed_from_u64(seed);
+                rng.set_stream(first + i as u64);
+                Ok(handed_over(begin(&mut rng)?, &wanted))
+            })
             .collect::<Result<_>>()?;
         for starts in batch {
             for (c, start) in missing.iter().zip(starts) {
@@ -92,18 +184,15 @@ pub fn starts(
     Ok(found)
 }
 
-/// One situation, up to where each of the contracts' controllers takes over in it.
-fn situation(
+/// A character that falls in a heap or is pushed over.
+fn heap_or_push(
     source: Source,
-    index: u64,
+    rng: &mut ChaCha8Rng,
     model: &Arc<Model>,
-    contracts: &[&Contract],
     before: &Supervisor,
-) -> Result<Vec<Option<Simulation>>> {
-    let mut rng = ChaCha8Rng::seed_from_u64(source.seed);
-    rng.set_stream(index);
+) -> Result<Simulation> {
     let mut scenario = Scenario::standing(&model.name, LONGEST);
-    scenario.settings = source.worlds.draw(&mut rng);
+    scenario.settings = source.worlds.draw(rng);
     let heap = rng.gen_range(0.0..1.0) < source.heaps;
     if heap {
         let start = &mut scenario.characters[0].start;
@@ -124,7 +213,12 @@ fn situation(
         let sign = if rng.gen_range(0..2) == 0 { 1.0 } else { -1.0 };
         run.push(0, &model.links[link].name, sign * impulse)?;
     }
-    let begun = run.clone();
+    Ok(run)
+}
+
+/// One situation, up to where each of the contracts' controllers takes over in it.
+fn handed_over(begun: Simulation, contracts: &[&Contract]) -> Vec<Option<Simulation>> {
+    let mut run = begun.clone();
     let mut taken: Vec<Option<u32>> = vec![None; contracts.len()];
     let mut steps = 0;
     while run.time() < LONGEST && taken.iter().any(Option::is_none) {
@@ -148,7 +242,7 @@ fn situation(
         }
         again.step();
     }
-    Ok(starts)
+    starts
 }
 
 fn takes_over(contract: &Contract, run: &Simulation) -> bool {

@@ -26,8 +26,9 @@ use crate::cli::{Verdict, progress, work};
 ///
 /// CMA-ES over many rollouts in random worlds (friction 0.6 to 1.2, torque 0.85 to 1.15, mass 0.95
 /// to 1.05). A controller of kind pose or step is taken from where its repertoire hands over to it,
-/// half of the times in a heap on the floor, half in a fall after a push, and has to come to its goal
-/// without any failure; a step that takes over from standing is pushed, by 40 to 90 N·s either way. A
+/// half of the times in a heap on the floor, half in a fall after a push (where that is too rare, it
+/// also begins as its rollouts for train preconditions do), and has to come to its goal without any
+/// failure; a step that takes over from standing is pushed, by 40 to 90 N·s either way. A
 /// controller of kind fall is pushed by 60 to 300 N·s on trunk, root and head in turn, and has to keep
 /// head and trunk from hitting the ground first, and hard.
 ///

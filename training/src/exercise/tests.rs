@@ -40,7 +40,12 @@ fn exercised(threads: usize, skill: &Skill, drill: Drill) -> (Vec<String>, Score
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     pool.unwrap().install(|| {
         let exercise = Exercise::new(skill, drill, |_| ControlFlow::Continue(())).unwrap();
-        let digests = exercise.starts.iter().map(Simulation::digest).collect();
+        let digests = exercise
+            .starts
+            .runs
+            .iter()
+            .map(Simulation::digest)
+            .collect();
         (digests, exercise.judge(&skill.mind))
     })
 }
@@ -70,7 +75,8 @@ fn skills_that_are_exercised_together_start_as_each_does_alone() {
     let drill = Drill::training(3, 5);
     let together = Exercise::all(&[never, tuck], drill, |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(together[0].starts(), 0);
-    let digests: Vec<String> = together[1].starts.iter().map(Simulation::digest).collect();
+    let starts = together[1].starts.runs.iter();
+    let digests: Vec<String> = starts.map(Simulation::digest).collect();
     assert_eq!(digests, exercised(1, tuck, drill).0);
 }
 
@@ -91,4 +97,23 @@ fn a_fall_is_told_by_its_kind_and_scored_by_how_it_lands() {
     let limp = exercise.judge(&limp);
     assert!(limp.reached < score.reached, "{limp:?} {score:?}");
     assert!(limp.cost > score.cost + 1.0, "{limp:?} {score:?}");
+}
+
+#[test]
+fn who_is_seldom_asked_also_starts_as_its_rollouts_do() {
+    let model = Model::load("humanoid").unwrap();
+    let registry = aplomb_controllers::registry();
+    let all = Skill::all("humanoid", &registry, &model).unwrap();
+    let skill = Skill::find(&all, "rise_hands_and_feet").unwrap();
+    let exercise = Exercise::new(skill, Drill::cell(Worlds::VARIED, 8, 1), |_| {
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    assert_eq!(exercise.starts(), 8);
+    assert!(exercise.own_starts() > 0);
+    for start in &exercise.starts.runs {
+        let mut run = start.clone();
+        run.step();
+        assert!(skill.contract.precondition.holds(run.sensors(0)));
+    }
 }

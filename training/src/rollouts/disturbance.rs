@@ -121,6 +121,10 @@ const SHIPPED: &[(&str, &str)] = &[
         include_str!("../../disturbances/rise_prone.ron"),
     ),
     (
+        "rise_hands_and_feet",
+        include_str!("../../disturbances/rise_hands_and_feet.ron"),
+    ),
+    (
         "rise_kneeling",
         include_str!("../../disturbances/rise_kneeling.ron"),
     ),

@@ -3,33 +3,26 @@
 //! takes over alone; the label is whether it succeeds: reaches its post-condition in time without failing, or,
 //! if it has none, is standing when the time is up, whatever it expects of itself.
 //!
-//! random stream → start, force, offsets → run → [`Sample`].
+//! random stream → [`Disturbed`] run → the controller alone → [`Sample`].
 
-use std::sync::Arc;
-
-use aplomb_controllers::servo::Servo;
-use aplomb_controllers::target::overlay;
 use aplomb_framework::Result;
 use aplomb_framework::condition::Condition;
 use aplomb_framework::contract::Contract;
 use aplomb_framework::controller::Controller;
+use aplomb_framework::feature::Feature;
 use aplomb_framework::file::Source;
-use aplomb_framework::model::Model;
 use aplomb_framework::registry::Registry;
-use aplomb_framework::scenario::{Scenario, Start};
-use aplomb_framework::sensors::Sensors;
 use aplomb_framework::simulation::Simulation;
 use aplomb_framework::supervisor::Supervisor;
 use aplomb_framework::trajectory::EventKind;
-use rand::Rng;
+use aplomb_framework::world::Settings;
 use rand_chacha::ChaCha8Rng;
 
-use super::disturbance::{Disturbance, During, Nominal};
+use super::disturbance::Disturbance;
+use super::disturbed::Disturbed;
+use super::held::Held;
 use crate::impact::Impact;
 use crate::skill::Skill;
-
-/// s for which it is disturbed at least.
-const SOONEST: f64 = 0.005;
 
 /// What a rollout tells.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,12 +38,7 @@ pub struct Sample {
 /// All that rollouts of a controller share.
 #[derive(Debug, Clone)]
 pub struct Trial {
-    /// The distribution.
-    pub disturbance: Disturbance,
-    /// The angles of each of its starts, rad.
-    poses: Vec<Vec<f64>>,
-    model: Arc<Model>,
-    repertoire: Supervisor,
+    disturbed: Disturbed,
     /// The controller alone, wherever it is; lying limp when it has ended.
     alone: Supervisor,
     contract: Contract,
@@ -74,25 +62,17 @@ impl Trial {
         let controller = registry.build(&place, &file, &skill.model)?;
         let limp = vec![0.0; skill.model.joint_count()];
         let idle: Box<dyn Controller> = Box::new(Held::new("idle", &skill.model, limp, 0.0));
-        let pose = |start: &Nominal| {
-            let mut pose = vec![0.0; skill.model.joint_count()];
-            overlay(
-                &skill.model,
-                &start.angles,
-                "angles",
-                [-7.0, 7.0],
-                &mut pose,
-            )
-            .map(|()| pose)
-        };
         Ok(Self {
-            poses: disturbance.starts.iter().map(pose).collect::<Result<_>>()?,
-            disturbance,
-            model: Arc::clone(&skill.model),
-            repertoire: skill.mind.clone(),
+            disturbed: Disturbed::new(disturbance, &skill.model, &skill.mind)?,
             alone: Supervisor::new("alone", vec![controller, idle], "idle")?,
             contract: skill.contract.clone(),
         })
+    }
+
+    /// What is recorded where the controller takes over.
+    #[must_use]
+    pub fn features(&self) -> &[Feature] {
+        &self.disturbed.disturbance.features
     }
 
     /// The rollout of a random stream.
@@ -100,15 +80,14 @@ impl Trial {
     /// # Errors
     /// A character whose parts do not fit each other.
     pub fn sample(&self, rng: &mut ChaCha8Rng) -> Result<Sample> {
-        let mut run = self.disturbed(rng)?;
+        let mut run = self.disturbed.run(Settings::default(), rng)?;
         run.set_mind(0, self.alone.clone());
         if let Some(command) = self.contract.commands.first() {
             run.command(0, &command.name)?;
         }
         run.step(); // it takes over with what is sensed in this step
         let now = run.sensors(0);
-        let features = self.disturbance.features.iter();
-        let features = features.map(|f| f.value(now)).collect();
+        let features = self.features().iter().map(|f| f.value(now)).collect();
         let manual = self.contract.precondition.holds(now);
         let success = self.succeeds(run);
         Ok(Sample {
@@ -118,65 +97,12 @@ impl Trial {
         })
     }
 
-    /// The character, disturbed.
-    fn disturbed(&self, rng: &mut ChaCha8Rng) -> Result<Simulation> {
-        let d = &self.disturbance;
-        let place = rng.gen_range(0..d.starts.len());
-        let nominal = &d.starts[place];
-        let mut scenario = Scenario::standing(&self.model.name, 60.0);
-        let joints = || self.model.joints();
-        let target: Vec<f64> = joints()
-            .zip(&self.poses[place])
-            .map(|(joint, angle)| {
-                let strayed = angle + nominal.spread * rng.gen_range(-1.0..=1.0);
-                strayed.clamp(joint.range[0], joint.range[1])
-            })
-            .collect();
-        scenario.characters[0].start = Start {
-            x: 0.0,
-            lift: rng.gen_range(nominal.lift[0]..=nominal.lift[1]),
-            pitch: nominal.pitch + rng.gen_range(-1.0..=1.0) * nominal.tilt,
-            angles: joints()
-                .map(|j| j.name.clone())
-                .zip(target.iter().copied())
-                .collect(),
-        };
-        let offset: Vec<f64> = target
-            .iter()
-            .map(|a| a + d.offset * rng.gen_range(-1.0..=1.0))
-            .collect();
-        let mind = match d.during[rng.gen_range(0..d.during.len())] {
-            During::Repertoire => self.repertoire.clone(),
-            During::Servos => {
-                let held: Box<dyn Controller> =
-                    Box::new(Held::new("held", &self.model, offset, 1.0));
-                Supervisor::new("held", vec![held], "held")?
-            }
-        };
-        let cast = vec![(Arc::clone(&self.model), mind)];
-        let mut run = Simulation::with_cast(&scenario, cast)?;
-        let link = &d.force.links[rng.gen_range(0..d.force.links.len())];
-        let magnitude = d.force.most * rng.gen_range(0.0..=1.0);
-        let rise = d.force.rise * rng.gen_range(-1.0..=1.0);
-        let sign = if rng.gen_range(0..2) == 0 { 1.0 } else { -1.0 };
-        let time = rng.gen_range(d.force.time[0]..=d.force.time[1]);
-        let impulse = magnitude * time;
-        run.shove(
-            0,
-            link,
-            [sign * impulse * rise.cos(), impulse * rise.sin()],
-            time,
-        )?;
-        run.run((time + rng.gen_range(d.pause[0]..=d.pause[1])).max(SOONEST));
-        Ok(run)
-    }
-
     /// Runs on until the controller has ended.
     fn succeeds(&self, mut run: Simulation) -> bool {
         let name = &self.contract.name;
         let never = self.contract.postcondition == Condition::Never;
         let mut impact = Impact::new(run.world().settings().dt);
-        let end = run.time() + self.disturbance.within;
+        let end = run.time() + self.disturbed.disturbance.within;
         let mut seen = 0;
         loop {
             let ended = run.events()[seen..].iter().find_map(|e| match &e.kind {
@@ -198,7 +124,7 @@ impl Trial {
                 return false;
             }
             run.step();
-            if let Some(limit) = self.disturbance.unharmed {
+            if let Some(limit) = self.disturbed.disturbance.unharmed {
                 impact.observe(run.sensors(0));
                 if impact.head > limit.head || impact.trunk > limit.trunk {
                     return false;
@@ -208,61 +134,11 @@ impl Trial {
     }
 }
 
-/// A contract that accepts every state and never ends.
-fn everywhere(name: &str) -> Contract {
-    Contract {
-        name: name.to_owned(),
-        weight: 1,
-        precondition: Condition::Always,
-        postcondition: Condition::Never,
-        expected: Condition::Always,
-        hold: 0.0,
-        patience: f64::INFINITY,
-        commands: Vec::new(),
-        confident: false,
-    }
-}
-
-/// Servos that hold a pose, whatever happens; at strength 0 the character is limp.
-#[derive(Debug, Clone)]
-struct Held {
-    contract: Contract,
-    servo: Servo,
-    target: Vec<f64>,
-    strength: f64,
-}
-
-impl Held {
-    fn new(name: &str, model: &Model, target: Vec<f64>, strength: f64) -> Self {
-        Self {
-            contract: everywhere(name),
-            servo: Servo::new(model, 1.0, 1.0),
-            target,
-            strength,
-        }
-    }
-}
-
-impl Controller for Held {
-    fn contract(&self) -> &Contract {
-        &self.contract
-    }
-
-    fn enter(&mut self, _: &Sensors) {}
-
-    fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
-        self.servo.track(now, &self.target, self.strength, torques);
-    }
-
-    fn clone_box(&self) -> Box<dyn Controller> {
-        Box::new(self.clone())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::rollouts::disturbance::shipped;
+    use aplomb_framework::model::Model;
     use rand::SeedableRng;
 
     fn trial(controller: &str) -> Trial {
@@ -298,11 +174,11 @@ mod tests {
     #[test]
     fn who_is_not_disturbed_succeeds_and_who_lies_cannot_balance() {
         let mut trial = trial("balance");
-        trial.disturbance.force.most = 0.0;
-        trial.disturbance.offset = 0.0;
+        trial.disturbed.disturbance.force.most = 0.0;
+        trial.disturbed.disturbance.offset = 0.0;
         let stood = sample(&trial, 0);
         assert!(stood.success && stood.manual);
-        trial.disturbance.starts[0].pitch = 1.5;
+        trial.disturbed.disturbance.starts[0].pitch = 1.5;
         let lay = sample(&trial, 0);
         assert!(!lay.success && !lay.manual);
     }
@@ -310,9 +186,9 @@ mod tests {
     #[test]
     fn what_hurts_is_no_success() {
         let mut trial = trial("fall");
-        trial.disturbance.force.most = 800.0;
+        trial.disturbed.disturbance.force.most = 800.0;
         let unhurt = (0..8).find(|i| sample(&trial, *i).success).unwrap();
-        let limit = trial.disturbance.unharmed.as_mut().unwrap();
+        let limit = trial.disturbed.disturbance.unharmed.as_mut().unwrap();
         (limit.head, limit.trunk) = (1.0, 1.0);
         assert!(!sample(&trial, unhurt).success);
     }

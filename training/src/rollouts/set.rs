@@ -221,7 +221,7 @@ fn sample(plan: &Plan<'_>, index: usize) -> Result<Sample> {
     let mut rng = ChaCha8Rng::seed_from_u64(*seed);
     rng.set_stream(part.stream(index));
     let sample = plan.trial.sample(&mut rng)?;
-    let names = &plan.trial.disturbance.features;
+    let names = plan.trial.features();
     let mut values = names.iter().zip(&sample.features);
     if let Some((name, value)) = values.find(|(_, value)| !value.is_finite()) {
         let place = format!("{controller}: {} sample {index}", part.name());
@@ -268,7 +268,7 @@ fn resumed(plan: &Plan<'_>, first: &str) -> Result<(File, Vec<Sample>)> {
         let accepted = format!("the set that is asked for: {first}");
         return Err(Error::invalid(place, "set", differs, accepted));
     }
-    let columns = plan.trial.disturbance.features.len() + 2;
+    let columns = plan.trial.features().len() + 2;
     let read = |(i, line): (usize, &str)| {
         parsed(line, columns).ok_or_else(|| {
             let place = format!("{}:{}", path.display(), i + 2);
@@ -287,7 +287,7 @@ fn resumed(plan: &Plan<'_>, first: &str) -> Result<(File, Vec<Sample>)> {
 
 /// Writes the dataset and its header, and removes the partial file.
 fn finish(plan: &Plan<'_>, samples: Vec<Sample>, found: usize) -> Result<Gathered> {
-    let features = &plan.trial.disturbance.features;
+    let features = plan.trial.features();
     let fresh = samples.len() - found;
     let manual: Vec<bool> = samples.iter().map(|s| s.manual).collect();
     let data = Dataset {
