@@ -178,6 +178,7 @@ mod tests {
         trial.disturbed.disturbance.offset = 0.0;
         let stood = sample(&trial, 0);
         assert!(stood.success && stood.manual);
+        trial.disturbed.disturbance.starts.truncate(1);
         trial.disturbed.disturbance.starts[0].pitch = 1.5;
         let lay = sample(&trial, 0);
         assert!(!lay.success && !lay.manual);
