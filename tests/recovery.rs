@@ -45,20 +45,20 @@ fn a_rise_that_does_not_get_going_gives_up_within_two_seconds() {
         scenario.settings.torque = 0.2;
         let mut run = Simulation::new(&scenario, &registry).unwrap();
         run.run(scenario.duration);
-        let mut begun = None;
+        let switches: Vec<(f64, &str, &str)> = run
+            .events()
+            .iter()
+            .filter_map(|event| match &event.kind {
+                EventKind::Switch { to, why, .. } => Some((event.time, to.as_ref(), why.as_ref())),
+                _ => None,
+            })
+            .collect();
         let mut lasted = Vec::new();
-        for event in run.events() {
-            let EventKind::Switch { from, to, why, .. } = &event.kind else {
-                continue;
-            };
-            if let (Some(begun), Some(first)) =
-                (begun.take(), from.as_deref().filter(|f| *f == first))
-            {
+        for pair in switches.windows(2) {
+            let [(begun, active, _), (left, _, why)] = [pair[0], pair[1]];
+            if active == first {
                 assert!(why.starts_with("failed"), "{first}: {why}");
-                lasted.push(event.time - begun);
-            }
-            if to == first {
-                begun = Some(event.time);
+                lasted.push(left - begun);
             }
         }
         assert!(

@@ -80,10 +80,6 @@ fn is_one(x: &f64) -> bool {
     *x == one()
 }
 
-fn is_false(b: &bool) -> bool {
-    !b
-}
-
 /// Adds gain × feature to a joint's target.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -106,7 +102,7 @@ pub struct PoseSpec {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub feedback: Vec<Feedback>,
     /// Swaps left and right.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub mirror: bool,
     /// Damping relative to the nominal servos.
     #[serde(default = "one", skip_serializing_if = "is_one")]

@@ -65,7 +65,7 @@ fn highest() -> f64 {
     f64::INFINITY
 }
 
-fn is_infinite(bound: &f64) -> bool {
+pub(crate) fn is_infinite(bound: &f64) -> bool {
     bound.is_infinite()
 }
 

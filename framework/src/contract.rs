@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::command::{Answer, Command};
-use crate::condition::Condition;
+use crate::condition::{Condition, is_infinite};
 use crate::controller::Progress;
 use crate::error::{Error, Result};
 use crate::model::Model;
@@ -20,7 +20,7 @@ pub struct Contract {
     pub weight: u32,
     /// Whether suitability is weight × probability of success where the pre-condition holds, as
     /// far as the pre-condition was learned, instead of weight × 1.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub confident: bool,
     /// Where the controller can take over.
     pub precondition: Condition,
@@ -34,7 +34,7 @@ pub struct Contract {
     #[serde(default, skip_serializing_if = "is_zero")]
     pub hold: f64,
     /// s after which a controller that has not succeeded has failed.
-    #[serde(default = "forever", skip_serializing_if = "is_forever")]
+    #[serde(default = "forever", skip_serializing_if = "is_infinite")]
     pub patience: f64,
     /// The commands that it answers to; its own name if none are listed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -53,16 +53,8 @@ fn forever() -> f64 {
     f64::INFINITY
 }
 
-fn is_false(b: &bool) -> bool {
-    !b
-}
-
 fn is_zero(x: &f64) -> bool {
     *x == 0.0
-}
-
-fn is_forever(x: &f64) -> bool {
-    *x == forever()
 }
 
 impl Contract {

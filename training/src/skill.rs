@@ -112,6 +112,13 @@ pub(crate) mod tests {
     ])"#
     );
 
+    /// A controller of the humanoid's repertoire.
+    pub(crate) fn shipped(name: &str) -> Skill {
+        let model = Model::load("humanoid").unwrap();
+        let all = Skill::all("humanoid", &aplomb_controllers::registry(), &model).unwrap();
+        Skill::find(&all, name).unwrap().clone()
+    }
+
     /// The controllers of a repertoire in text, in a folder of their own.
     pub(crate) fn skills(text: &str) -> (tempfile::TempDir, Vec<Skill>) {
         let folder = tempfile::tempdir().unwrap();

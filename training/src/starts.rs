@@ -92,38 +92,41 @@ pub fn starts(
         first: 0,
         patience: source.patience,
     };
-    let mut runs = search(common, count, &everyone, begin, &mut watch)?;
+    let found = search(common, count, &everyone, begin, &mut watch)?;
+    let mut total = found.iter().map(Vec::len).sum::<usize>();
+    let mut all: Vec<Starts> = found
+        .into_iter()
+        .map(|runs| Starts { runs, own: 0 })
+        .collect();
     let own_streams = Streams {
         seed: source.seed,
         first: OWN,
         patience: OWN_PATIENCE,
     };
-    let mut own = vec![0; wanted.len()];
-    for (place, one) in wanted.iter().enumerate() {
-        let before_it = runs.iter().map(Vec::len).sum::<usize>();
-        let missing = count - runs[place].len();
+    for (one, starts) in wanted.iter().zip(&mut all) {
+        let before_it = starts.runs.len();
+        let missing = count - before_it;
         if let Some(disturbed) = &one.disturbed
             && missing > 0
-            && watch(before_it).is_continue()
+            && watch(total).is_continue()
         {
             let begin = |rng: &mut ChaCha8Rng| {
                 let mut run = disturbed.run(source.worlds.draw(rng), rng)?;
                 run.set_mind(0, before.clone());
                 Ok(run)
             };
-            let mut watch = |found| watch(before_it + found);
+            let mut watch = |found| watch(total + found);
             let commanded = Contract {
                 weight: 0,
                 ..one.contract.clone()
             };
             let found = search(own_streams, missing, &[&commanded], begin, &mut watch)?;
-            let found: Vec<Simulation> = found.into_iter().flatten().collect();
-            own[place] = found.len();
-            runs[place].extend(found);
+            starts.runs.extend(found.into_iter().flatten());
+            starts.own = starts.runs.len() - before_it;
+            total += starts.own;
         }
     }
-    let starts = runs.into_iter().zip(own);
-    Ok(starts.map(|(runs, own)| Starts { runs, own }).collect())
+    Ok(all)
 }
 
 /// Which situations are looked through.

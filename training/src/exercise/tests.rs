@@ -1,7 +1,7 @@
 //! What contracts ask for, and scores on any number of threads.
 
 use super::*;
-use crate::skill::tests::{TUCK, skills};
+use crate::skill::tests::{TUCK, shipped, skills};
 use aplomb_framework::repertoire;
 use aplomb_framework::sensors::Posture;
 
@@ -84,8 +84,7 @@ fn skills_that_are_exercised_together_start_as_each_does_alone() {
 fn a_fall_is_told_by_its_kind_and_scored_by_how_it_lands() {
     let model = Model::load("humanoid").unwrap();
     let registry = aplomb_controllers::registry();
-    let all = Skill::all("humanoid", &registry, &model).unwrap();
-    let fall = Skill::find(&all, "fall").unwrap();
+    let fall = &shipped("fall");
     assert_eq!(Task::of(fall).unwrap(), Task::Fall);
     let drill = Drill::training(6, 2);
     let (starts, score) = exercised(1, fall, drill);
@@ -101,11 +100,8 @@ fn a_fall_is_told_by_its_kind_and_scored_by_how_it_lands() {
 
 #[test]
 fn who_is_seldom_asked_also_starts_as_its_rollouts_do() {
-    let model = Model::load("humanoid").unwrap();
-    let registry = aplomb_controllers::registry();
-    let all = Skill::all("humanoid", &registry, &model).unwrap();
-    let skill = Skill::find(&all, "rise_hands_and_feet").unwrap();
-    let exercise = Exercise::new(skill, Drill::cell(Worlds::VARIED, 8, 1), |_| {
+    let skill = shipped("rise_hands_and_feet");
+    let exercise = Exercise::new(&skill, Drill::cell(Worlds::VARIED, 8, 1), |_| {
         ControlFlow::Continue(())
     })
     .unwrap();

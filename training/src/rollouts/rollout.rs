@@ -138,17 +138,13 @@ impl Trial {
 mod tests {
     use super::*;
     use crate::rollouts::disturbance::shipped;
-    use aplomb_framework::model::Model;
     use rand::SeedableRng;
 
     fn trial(controller: &str) -> Trial {
-        let model = Model::load("humanoid").unwrap();
-        let registry = aplomb_controllers::registry();
-        let skills = Skill::all("humanoid", &registry, &model).unwrap();
-        let skill = Skill::find(&skills, controller).unwrap();
+        let skill = crate::skill::tests::shipped(controller);
         let source = shipped(controller).unwrap();
-        let disturbance = Disturbance::parse(&source, &model).unwrap();
-        Trial::new(skill, disturbance, &registry).unwrap()
+        let disturbance = Disturbance::parse(&source, &skill.model).unwrap();
+        Trial::new(&skill, disturbance, &aplomb_controllers::registry()).unwrap()
     }
 
     fn sample(trial: &Trial, stream: u64) -> Sample {
