@@ -67,6 +67,7 @@ const FILES: &[(&str, &str)] = shipped![
     "learned/balance.boundary.ron",
     "learned/fall.boundary.ron",
     "learned/protective_step.boundary.ron",
+    "learned/rise_hands_and_feet.boundary.ron",
     "learned/rise_kneeling.boundary.ron",
     "learned/rise_prone.boundary.ron",
     "learned/rise_sitting.boundary.ron",

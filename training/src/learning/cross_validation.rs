@@ -1,70 +1,54 @@
 //! Which kernel, C and γ: by cross-validation on the training set alone.
 //!
-//! standardised rows, labels → held-out scores of candidates → [`Choice`].
+//! standardised rows, labels → held-out scores of candidates → [`Measured`].
 //!
-//! From coarse to fine: each kernel at C = 1 and 10 and γ = 1 / features, the linear one at C = 0.3,
-//! then steps along the grid from each kernel's best while that improves it. Kernels far behind are
-//! left where they are: large C takes by far the longest where a kernel does not fit.
+//! From coarse to fine: each kernel at C = 1 and 10 and γ = 1 / features, the radial one at γ = 10 / features
+//! as well, the linear one at C = 0.3, then steps along the grid from each kernel's best while that improves it. Kernels far behind are
+//! left where they are: large C takes by far the longest where a kernel does not fit. This search sees
+//! only part of a large set; the best few that it found are then measured on more of it.
 //!
 //! Machines are trained by libsvm-rs, which finds the same optimum as linfa-svm five to ten times as
-//! fast; 3,000 samples of 20 features take some 35 s of processor time. Candidates are measured in parallel; the same seed gives the same choice whatever the number
+//! fast. Candidates are measured in parallel; the same seed gives the same choice whatever the number
 //! of threads.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use aplomb_framework::{Error, Result};
-use rand::SeedableRng;
-use rand::seq::SliceRandom;
-use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 
-use super::libsvm_solver;
-use super::machine::{Kernel, Settings, checked, prices};
-use super::metrics::metrics;
+use super::folds::{Folded, Measured};
+use super::machine::{Kernel, Settings, checked};
 
-/// So many parts; each is held out once.
-pub const FOLDS: usize = 4;
-/// Only the first so many samples of the training set take part, so that the time is bounded.
-pub const MOST_SAMPLES: usize = 3_000;
-/// A polynomial is preferred to a radial kernel that is better by less: it is evaluated exactly at a
-/// cost that does not grow with the number of support vectors.
-pub const PREFERENCE: f64 = 0.002;
+/// Only the first so many samples of the training set take part in the search, so that its time is bounded.
+pub const MOST_SEARCHED: usize = 3_000;
+/// So many take part in the final: more samples tell smaller differences, and a radial kernel gains more by
+/// them than a polynomial.
+pub const MOST_IN_FINAL: usize = 10_000;
+/// So many candidates take part in the final.
+const FINALISTS: usize = 6;
 
 /// Prices of a violated margin that are tried.
 const COSTS: [f64; 6] = [0.3, 1.0, 3.0, 10.0, 30.0, 100.0];
 /// Coefficients of the kernel that are tried, times the number of features.
-const GAMMAS: [f64; 3] = [0.3, 1.0, 3.0];
-/// Where the linear kernel begins, and every other: places in [`GAMMAS`] and [`COSTS`].
+const GAMMAS: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
+/// Where the linear kernel begins: places in [`GAMMAS`] and [`COSTS`].
 const LINEAR_STARTS: [(usize, usize); 1] = [(1, 0)];
-/// See [`LINEAR_STARTS`].
-const STARTS: [(usize, usize); 2] = [(1, 1), (1, 3)];
+/// Where polynomials begin.
+const POLYNOMIAL_STARTS: [(usize, usize); 2] = [(1, 1), (1, 3)];
+/// Where the radial kernel begins. It has a second optimum where only near neighbours count.
+const RADIAL_STARTS: [(usize, usize); 3] = [(1, 1), (1, 3), (3, 1)];
 /// A kernel whose best is worse than the best of all by more is not followed further.
 const FAR: f64 = 0.03;
-/// Tolerance of the optimality conditions, in units of the score: ten times that of the final
-/// training, which moves few scores across 0 and saves most of the time at large C.
-const TOLERANCE: f64 = 1e-2;
 /// Candidates that are measured before the watch is told.
 const BATCH: usize = 4;
-
-/// The best settings.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Choice {
-    /// Kernel, C and γ.
-    pub settings: Settings,
-    /// Balanced accuracy over all held-out samples.
-    pub balanced_accuracy: f64,
-    /// Score of every sample that took part, by a machine that was not trained on it.
-    pub scores: Vec<f64>,
-}
 
 /// A place of the grid: of the kernel among those allowed, in [`GAMMAS`] and in [`COSTS`].
 type Place = (usize, usize, usize);
 
 /// Chooses among the kernels' candidates by balanced accuracy over all held-out samples; of equal
 /// ones the earlier in the grid: the earlier kernel, then the smaller γ and C. `watch` sees how many
-/// candidates are measured of how many that are planned so far and may end the work, which then has
-/// no result.
+/// measurements are made of how many that are planned so far and may end the work, which then has no
+/// result.
 ///
 /// # Errors
 /// [`Error::Invalid`] if the samples that take part are not finite or lack two of a class, or there
@@ -75,47 +59,101 @@ pub fn choose(
     kernels: &[Kernel],
     seed: u64,
     mut watch: impl FnMut(usize, usize) -> ControlFlow<()>,
-) -> Result<Option<Choice>> {
-    let count = rows.len().min(labels.len()).min(MOST_SAMPLES);
-    let (rows, labels) = (&rows[..count], &labels[..count]);
+) -> Result<Option<Measured>> {
+    let grid = Grid {
+        kernels,
+        width: rows.first().map_or(1, Vec::len).max(1),
+    };
     if kernels.is_empty() {
         let accepted = "at least one of linear, poly2, poly3, rbf";
         return Err(Error::invalid("settings", "kernels", "none", accepted));
     }
-    let width = rows.first().map_or(1, Vec::len).max(1);
-    let settings = |(kernel, gamma, c): Place| Settings {
-        kernel: kernels[kernel],
-        c: COSTS[c],
-        gamma: match kernels[kernel] {
-            Kernel::Linear => 1.0,
-            _ => GAMMAS[gamma] / width as f64,
-        },
+    let head = |most: usize| {
+        let count = rows.len().min(labels.len()).min(most);
+        (&rows[..count], &labels[..count])
     };
-    checked(rows, labels, &settings((0, 0, 0)))?;
-    let folds = folds(labels, seed);
-    let mut measured: BTreeMap<Place, Choice> = BTreeMap::new();
-    let mut planned: Vec<Place> = (0..kernels.len())
-        .flat_map(|kernel| {
-            let starts: &[(usize, usize)] = match kernels[kernel] {
+    let (searched, more) = (head(MOST_SEARCHED), head(MOST_IN_FINAL));
+    for (rows, labels) in [searched, more] {
+        checked(rows, labels, &grid.settings((0, 0, 0)))?;
+    }
+    let to_come = if more.0.len() > searched.0.len() {
+        FINALISTS
+    } else {
+        0
+    };
+    let planned = |done, of| watch(done, of + to_come);
+    let Some(measured) = search(&Folded::new(searched, seed), &grid, planned) else {
+        return Ok(None);
+    };
+    if to_come == 0 {
+        return Ok(top(&measured).cloned());
+    }
+    let candidates = front(&measured, FINALISTS);
+    let folded = Folded::new(more, seed);
+    let mut found = Vec::with_capacity(candidates.len());
+    for candidate in &candidates {
+        found.extend(folded.measure(&[*candidate]));
+        let total = measured.len() + candidates.len();
+        if watch(measured.len() + found.len(), total).is_break() {
+            return Ok(None);
+        }
+    }
+    Ok(top(&found).cloned())
+}
+
+/// Which candidates there are.
+struct Grid<'a> {
+    kernels: &'a [Kernel],
+    /// Number of features.
+    width: usize,
+}
+
+impl Grid<'_> {
+    fn settings(&self, (kernel, gamma, c): Place) -> Settings {
+        Settings {
+            kernel: self.kernels[kernel],
+            c: COSTS[c],
+            gamma: match self.kernels[kernel] {
+                Kernel::Linear => 1.0,
+                _ => GAMMAS[gamma] / self.width as f64,
+            },
+        }
+    }
+
+    /// Where the search begins.
+    fn starts(&self) -> Vec<Place> {
+        let of_kernel = |kernel: usize| {
+            let starts: &[(usize, usize)] = match self.kernels[kernel] {
                 Kernel::Linear => &LINEAR_STARTS,
-                _ => &STARTS,
+                Kernel::Poly2 | Kernel::Poly3 => &POLYNOMIAL_STARTS,
+                Kernel::Rbf => &RADIAL_STARTS,
             };
             starts.iter().map(move |(gamma, c)| (kernel, *gamma, *c))
-        })
-        .collect();
+        };
+        (0..self.kernels.len()).flat_map(of_kernel).collect()
+    }
+}
+
+/// All that is measured on the way from the starts to each kernel's best, in the order of the grid.
+fn search(
+    folded: &Folded,
+    grid: &Grid,
+    mut watch: impl FnMut(usize, usize) -> ControlFlow<()>,
+) -> Option<Vec<Measured>> {
+    let mut measured = BTreeMap::new();
+    let mut planned = grid.starts();
     while !planned.is_empty() {
         let total = measured.len() + planned.len();
         for batch in planned.chunks(BATCH) {
-            let candidates: Vec<Settings> = batch.iter().map(|place| settings(*place)).collect();
-            let found = measure(&candidates, rows, labels, &folds);
-            measured.extend(batch.iter().copied().zip(found));
+            let settings: Vec<Settings> = batch.iter().map(|p| grid.settings(*p)).collect();
+            measured.extend(batch.iter().copied().zip(folded.measure(&settings)));
             if watch(measured.len(), total).is_break() {
-                return Ok(None);
+                return None;
             }
         }
-        planned = next(&measured, kernels);
+        planned = next(&measured, grid.kernels);
     }
-    Ok(best(measured.values()).cloned())
+    Some(measured.into_values().collect())
 }
 
 /// The greatest price that is tried with a kernel, as a place in [`COSTS`]: where the linear kernel does not fit, large
@@ -128,12 +166,12 @@ fn dearest(kernel: Kernel) -> usize {
 }
 
 /// The neighbours, not yet measured, of the best place of every kernel that is not far behind.
-fn next(measured: &BTreeMap<Place, Choice>, kernels: &[Kernel]) -> Vec<Place> {
-    let top = top(measured.values(), |_| true).map_or(0.0, |c| c.balanced_accuracy);
+fn next(measured: &BTreeMap<Place, Measured>, kernels: &[Kernel]) -> Vec<Place> {
+    let top = top(measured.values()).map_or(0.0, |c| c.balanced_accuracy);
     let mut planned = Vec::new();
     for (index, kernel) in kernels.iter().enumerate() {
         let of_kernel = measured.iter().filter(|(place, _)| place.0 == index);
-        let better = |a: &Choice, b: &Choice| b.balanced_accuracy > a.balanced_accuracy;
+        let better = |a: &Measured, b: &Measured| b.balanced_accuracy > a.balanced_accuracy;
         let best = of_kernel.reduce(|a, b| if better(a.1, b.1) { b } else { a });
         let Some(((_, gamma, c), choice)) = best else {
             continue;
@@ -153,86 +191,22 @@ fn next(measured: &BTreeMap<Place, Choice>, kernels: &[Kernel]) -> Vec<Place> {
     planned
 }
 
-/// The fold of every sample: as many successes in each, and as many failures, but for one.
-fn folds(labels: &[bool], seed: u64) -> Vec<usize> {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let mut folds = vec![0; labels.len()];
-    for class in [true, false] {
-        let mut members: Vec<usize> = (0..labels.len()).filter(|i| labels[*i] == class).collect();
-        members.shuffle(&mut rng);
-        for (place, sample) in members.into_iter().enumerate() {
-            folds[sample] = place % FOLDS;
-        }
-    }
-    folds
+/// The first of the best.
+fn top<'a>(measured: impl IntoIterator<Item = &'a Measured>) -> Option<&'a Measured> {
+    let better = |a: &Measured, b: &Measured| b.balanced_accuracy > a.balanced_accuracy;
+    measured
+        .into_iter()
+        .reduce(|a, b| if better(a, b) { b } else { a })
 }
 
-/// Held-out scores of some candidates, every fold of each in parallel.
-fn measure(
-    candidates: &[Settings],
-    rows: &[Vec<f64>],
-    labels: &[bool],
-    folds: &[usize],
-) -> Vec<Choice> {
-    let pairs: Vec<(usize, usize)> = (0..candidates.len())
-        .flat_map(|candidate| (0..FOLDS).map(move |fold| (candidate, fold)))
-        .collect();
-    let held_out: Vec<Vec<(usize, f64)>> = pairs
-        .par_iter()
-        .map(|(candidate, fold)| scores(&candidates[*candidate], rows, labels, folds, *fold))
-        .collect();
-    let of_candidate = held_out.chunks(FOLDS).zip(candidates);
-    of_candidate
-        .map(|(parts, settings)| {
-            let mut scores = vec![0.0; rows.len()];
-            for (sample, score) in parts.iter().flatten() {
-                scores[*sample] = *score;
-            }
-            let predicted: Vec<bool> = scores.iter().map(|s| *s >= 0.0).collect();
-            Choice {
-                settings: *settings,
-                balanced_accuracy: metrics(&predicted, labels).balanced_accuracy,
-                scores,
-            }
-        })
-        .collect()
-}
-
-/// Scores of a fold's samples by a machine trained on the others.
-fn scores(
-    settings: &Settings,
-    rows: &[Vec<f64>],
-    labels: &[bool],
-    folds: &[usize],
-    fold: usize,
-) -> Vec<(usize, f64)> {
-    let (held_out, kept): (Vec<usize>, Vec<usize>) =
-        (0..rows.len()).partition(|i| folds[*i] == fold);
-    let kept_rows: Vec<Vec<f64>> = kept.iter().map(|i| rows[*i].clone()).collect();
-    let kept_labels: Vec<bool> = kept.iter().map(|i| labels[*i]).collect();
-    let successes = kept_labels.iter().filter(|s| **s).count();
-    let prices = prices(settings.c, (successes, kept.len() - successes));
-    let machine = libsvm_solver::solve(&kept_rows, &kept_labels, settings, prices, TOLERANCE);
-    let score = |i: usize| (i, machine.score(&rows[i]));
-    held_out.into_iter().map(score).collect()
-}
-
-/// The best, or the best polynomial if only a radial kernel is better, and that by little.
-fn best<'a>(measured: impl Iterator<Item = &'a Choice> + Clone) -> Option<&'a Choice> {
-    let best = top(measured.clone(), |_| true)?;
-    let polynomial = top(measured, |kernel| kernel != Kernel::Rbf);
-    let near = |p: &&Choice| p.balanced_accuracy >= best.balanced_accuracy - PREFERENCE;
-    Some(polynomial.filter(near).unwrap_or(best))
-}
-
-/// The first of the best among the allowed kernels.
-fn top<'a>(
-    measured: impl Iterator<Item = &'a Choice>,
-    allowed: impl Fn(Kernel) -> bool,
-) -> Option<&'a Choice> {
-    let better = |a: &Choice, b: &Choice| b.balanced_accuracy > a.balanced_accuracy;
-    let of = measured.filter(|c| allowed(c.settings.kernel));
-    of.reduce(|a, b| if better(a, b) { b } else { a })
+/// The best few, in the order of the grid.
+fn front(measured: &[Measured], count: usize) -> Vec<Settings> {
+    let mut ranked: Vec<(usize, &Measured)> = measured.iter().enumerate().collect();
+    // Stable: of equal ones the earlier.
+    ranked.sort_by(|a, b| b.1.balanced_accuracy.total_cmp(&a.1.balanced_accuracy));
+    ranked.truncate(count);
+    ranked.sort_by_key(|(place, _)| *place);
+    ranked.iter().map(|(_, choice)| choice.settings).collect()
 }
 
 #[cfg(test)]
@@ -240,8 +214,8 @@ mod tests {
     use super::*;
     use crate::learning::synthetic::rings;
 
-    fn candidate(kernel: Kernel, c: f64, balanced_accuracy: f64) -> Choice {
-        Choice {
+    fn candidate(kernel: Kernel, c: f64, balanced_accuracy: f64) -> Measured {
+        Measured {
             settings: Settings {
                 kernel,
                 c,
@@ -253,35 +227,32 @@ mod tests {
     }
 
     #[test]
-    fn folds_are_stratified_and_follow_from_the_seed() {
-        let labels: Vec<bool> = (0..103).map(|i| i % 5 == 0).collect();
-        let parts = folds(&labels, 3);
-        assert_eq!(parts, folds(&labels, 3));
-        assert_ne!(parts, folds(&labels, 4));
-        for fold in 0..FOLDS {
-            let count = |class: bool| {
-                let of = parts.iter().zip(&labels);
-                of.filter(|(f, l)| **f == fold && **l == class).count()
-            };
-            assert!((5..=6).contains(&count(true)), "{}", count(true));
-            assert!((20..=21).contains(&count(false)), "{}", count(false));
-        }
+    fn the_first_of_equals_wins_and_the_best_few_go_on_in_their_order() {
+        let measured = [
+            candidate(Kernel::Linear, 1.0, 0.7),
+            candidate(Kernel::Poly2, 1.0, 0.9),
+            candidate(Kernel::Poly2, 3.0, 0.8),
+            candidate(Kernel::Rbf, 1.0, 0.9),
+            candidate(Kernel::Rbf, 3.0, 0.95),
+        ];
+        assert_eq!(top(&measured[..4]), Some(&measured[1]));
+        assert_eq!(top(&[]), None);
+        let chosen = front(&measured, 2);
+        assert_eq!(chosen, [measured[1].settings, measured[4].settings]);
+        assert_eq!(front(&measured, 9).len(), 5);
     }
 
     #[test]
-    fn the_first_of_equals_wins_and_a_polynomial_that_is_hardly_worse_than_a_radial_kernel() {
-        let measured = [
-            candidate(Kernel::Linear, 1.0, 0.7),
-            candidate(Kernel::Poly2, 1.0, 0.899),
-            candidate(Kernel::Poly2, 3.0, 0.899),
-            candidate(Kernel::Rbf, 1.0, 0.9),
-        ];
-        assert_eq!(best(measured.iter()), Some(&measured[1]));
-        let mut clear = measured.clone();
-        clear[3].balanced_accuracy = 0.95;
-        assert_eq!(best(clear.iter()), Some(&clear[3]));
-        assert_eq!(best(measured[3..].iter()), Some(&measured[3]));
-        assert_eq!(best([].iter()), None);
+    fn the_final_sees_more_than_the_search() {
+        let set = rings(MOST_SEARCHED + 200, 2, 1);
+        let mut seen = Vec::new();
+        let chosen = choose(&set.rows, &set.success, &[Kernel::Poly2], 1, |done, of| {
+            seen.push((done, of));
+            ControlFlow::Continue(())
+        });
+        assert_eq!(chosen.unwrap().unwrap().scores.len(), MOST_SEARCHED + 200);
+        assert!(seen.windows(2).all(|w| w[0].0 < w[1].0), "{seen:?}");
+        assert_eq!(seen.last().map(|(done, of)| done == of), Some(true));
     }
 
     #[test]

@@ -9,6 +9,7 @@
 pub mod calibration;
 pub mod cross_validation;
 pub mod dataset;
+pub mod folds;
 pub mod learn;
 pub mod learned;
 mod libsvm_solver;
