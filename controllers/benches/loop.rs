@@ -172,6 +172,17 @@ fn boundary_of_twenty_features(bencher: Bencher) {
     bencher.bench_local(|| black_box(&boundary).score(black_box(&now)));
 }
 
+/// That of balance is a radial one with 1,290 support vectors of 17 features, that of roll has 4,702 of 24.
+#[divan::bench(args = ["balance", "roll"])]
+fn shipped_boundary(bencher: Bencher, controller: &str) {
+    let now = pushed();
+    let file = registry().file(&format!("learned/{controller}.boundary.ron"));
+    let mut boundary = Boundary::parse(&file.unwrap()).unwrap();
+    boundary.resolve(&now.model).unwrap();
+    assert!(boundary.score(&now).is_finite());
+    bencher.bench_local(|| black_box(&boundary).score(black_box(&now)));
+}
+
 #[divan::bench(sample_count = 20)]
 fn step_balancing(bencher: Bencher) {
     let start = after(1.0, &scenario(0.0, 0.0));

@@ -1,6 +1,6 @@
 //! Settings measured on samples that the machine was not trained on.
 //!
-//! standardised rows, labels → [`Folded`]; settings → held-out score of every sample, [`Measured`].
+//! standardised rows, labels → folds; settings → held-out score of every sample, [`Measured`].
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
