@@ -3,9 +3,10 @@
 //! standardised rows, labels → held-out scores of candidates → [`Measured`].
 //!
 //! From coarse to fine: each kernel at C = 1 and 10 and γ = 1 / features, the radial one at γ = 10 / features
-//! as well, the linear one at C = 0.3, then steps along the grid from each kernel's best while that improves it. Kernels far behind are
-//! left where they are: large C takes by far the longest where a kernel does not fit. This search sees
-//! only part of a large set; the best few that it found are then measured on more of it.
+//! as well, the linear one at C = 0.3, then steps along the grid from each kernel's best while that
+//! improves it. Kernels far behind are left where they are: large C takes by far the longest where a
+//! kernel does not fit. This search sees only part of a large set; the best few that it found are then
+//! measured on more of it.
 //!
 //! Machines are trained by libsvm-rs, which finds the same optimum as linfa-svm five to ten times as
 //! fast. Candidates are measured in parallel; the same seed gives the same choice whatever the number
@@ -171,8 +172,7 @@ fn next(measured: &BTreeMap<Place, Measured>, kernels: &[Kernel]) -> Vec<Place> 
     let mut planned = Vec::new();
     for (index, kernel) in kernels.iter().enumerate() {
         let of_kernel = measured.iter().filter(|(place, _)| place.0 == index);
-        let better = |a: &Measured, b: &Measured| b.balanced_accuracy > a.balanced_accuracy;
-        let best = of_kernel.reduce(|a, b| if better(a.1, b.1) { b } else { a });
+        let best = of_kernel.reduce(|a, b| if better(b.1, a.1) { b } else { a });
         let Some(((_, gamma, c), choice)) = best else {
             continue;
         };
@@ -193,10 +193,13 @@ fn next(measured: &BTreeMap<Place, Measured>, kernels: &[Kernel]) -> Vec<Place> 
 
 /// The first of the best.
 fn top<'a>(measured: impl IntoIterator<Item = &'a Measured>) -> Option<&'a Measured> {
-    let better = |a: &Measured, b: &Measured| b.balanced_accuracy > a.balanced_accuracy;
-    measured
-        .into_iter()
-        .reduce(|a, b| if better(a, b) { b } else { a })
+    let measured = measured.into_iter();
+    measured.reduce(|a, b| if better(b, a) { b } else { a })
+}
+
+/// Whether a is right more often than b.
+fn better(a: &Measured, b: &Measured) -> bool {
+    a.balanced_accuracy > b.balanced_accuracy
 }
 
 /// The best few, in the order of the grid.

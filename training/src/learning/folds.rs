@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::libsvm_solver;
 use super::machine::{Settings, prices};
-use super::metrics::metrics;
+use super::metrics::metrics_of_scores;
 
 /// So many parts; each is held out once.
 const FOLDS: usize = 4;
@@ -61,10 +61,9 @@ impl<'a> Folded<'a> {
                 for (sample, score) in parts.iter().flatten() {
                     scores[*sample] = *score;
                 }
-                let predicted: Vec<bool> = scores.iter().map(|s| *s >= 0.0).collect();
                 Measured {
                     settings: *settings,
-                    balanced_accuracy: metrics(&predicted, self.labels).balanced_accuracy,
+                    balanced_accuracy: metrics_of_scores(&scores, self.labels).balanced_accuracy,
                     scores,
                 }
             })

@@ -14,12 +14,12 @@ use super::cross_validation::choose;
 use super::dataset::Dataset;
 use super::learned::Learned;
 use super::machine::{Kernel, Settings, train as train_machine};
-use super::metrics::{area, log_loss, metrics, roc, thinned};
+use super::metrics::{area, log_loss, metrics, metrics_of_scores, roc, thinned};
 use super::neighbour::Neighbours;
 use super::slice::slice;
 use super::split;
 use super::standardise::Scaling;
-use crate::report::{CurvePoint, Metrics, NeighbourReport, Report, SvmReport};
+use crate::report::{CurvePoint, NeighbourReport, Report, SvmReport};
 
 /// Queries that are timed, one after another.
 const TIMED: usize = 2_000;
@@ -145,7 +145,7 @@ pub fn learn(
         solver: machine.solver.to_owned(),
         c: choice.settings.c,
         gamma: choice.settings.gamma,
-        metrics: of_scores(&scores, &test.success),
+        metrics: metrics_of_scores(&scores, &test.success),
         auc: area(&roc),
         log_loss: loss(&learned, &scores, test),
         support_vectors: machine.support.len(),
@@ -244,7 +244,7 @@ fn curve_point(train: &Dataset, test: &Dataset, settings: &Settings) -> Result<C
     let nearest = metrics(&neighbours.predict(&tested)?, &test.success);
     Ok(CurvePoint {
         train: rows.len(),
-        svm: of_scores(&scores, &test.success).balanced_accuracy,
+        svm: metrics_of_scores(&scores, &test.success).balanced_accuracy,
         nn: nearest.balanced_accuracy,
         train_s,
     })
@@ -258,11 +258,6 @@ fn sizes(settings: &LearnSettings, train: &Dataset) -> Vec<usize> {
     };
     let sizes = settings.curve_sizes.iter().copied();
     sizes.filter(possible).collect()
-}
-
-fn of_scores(scores: &[f64], truth: &[bool]) -> Metrics {
-    let predicted: Vec<bool> = scores.iter().map(|s| *s >= 0.0).collect();
-    metrics(&predicted, truth)
 }
 
 /// Accuracy on the test set of the training set's more frequent class.

@@ -15,7 +15,7 @@ use super::{libsvm_solver, linfa_solver, polynomial};
 /// square of their number.
 pub const MOST_FOR_LINFA: usize = 5_000;
 /// Decimals of a support vector in a boundary file: a ten-thousandth of a standard deviation decides nothing, and the
-/// file has a third of the size.
+/// file has less than half the size.
 pub const SUPPORT_DIGITS: i32 = 4;
 
 /// What stands for the scalar product of two standardised rows x, y.

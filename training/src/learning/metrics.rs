@@ -41,6 +41,13 @@ pub fn metrics(predicted: &[bool], truth: &[bool]) -> Metrics {
     }
 }
 
+/// As [`metrics`], of scores that foretell a success where they are at least 0.
+#[must_use]
+pub fn metrics_of_scores(scores: &[f64], truth: &[bool]) -> Metrics {
+    let predicted: Vec<bool> = scores.iter().map(|s| *s >= 0.0).collect();
+    metrics(&predicted, truth)
+}
+
 /// The ROC curve of scores of which more means success: false and true positive rates from (0, 0) to
 /// (1, 1), one point for every different score.
 #[must_use]

@@ -1,6 +1,6 @@
 //! Pre-conditions learned from successes and failures (Faloutsos, van de Panne & Terzopoulos 2001).
 //!
-//! [`dataset`](dataset::Dataset) → [`standardise`] → kernel, C and γ by [`cross_validation`] →
+//! [`dataset`](dataset::Dataset) → [`standardise`] → kernel, C and γ by [`cross_validation`] over [`folds`] →
 //! [`machine`] → `polynomial` where the kernel is one → probabilities by [`calibration`];
 //! beside it the nearest [`neighbour`]. [`metrics`] of both on a test set. All of it:
 //! [`learn`](mod@learn), from two sets that [`split`] accepts to a pre-condition ([`learned`]) and a
