@@ -1,9 +1,10 @@
 //! The humanoid in a rapier scene that somebody else owns and steps: crates are thrown at it.
-use aplomb_framework::body::Body;
-use aplomb_framework::controller::Controller;
-use aplomb_framework::rapier2d::prelude::*;
-use aplomb_framework::world::{Settings, integration_parameters};
-use aplomb_framework::{Result, model::Model, repertoire, sensors::Sensors, state::State};
+use aplomb::framework::character::{Model, State};
+use aplomb::framework::control::{Controller, repertoire};
+use aplomb::framework::input::Result;
+use aplomb::framework::rapier2d::prelude::*;
+use aplomb::framework::sensing::Sensors;
+use aplomb::framework::world::{Body, Settings, integration_parameters};
 
 fn main() -> Result<()> {
     // A scene of one's own. Stiff contacts suit a character that balances; the rest is free.
@@ -32,7 +33,7 @@ fn main() -> Result<()> {
     let start = State::standing(&model);
     let body = Body::spawn(&model, &start, 0, &mut bodies, &mut colliders, &mut joints);
     let mut sensors = Sensors::new(&model, 9.81);
-    let mut mind = repertoire::load("humanoid", &aplomb_controllers::registry(), &model)?;
+    let mut mind = repertoire::load("humanoid", &aplomb::controllers::registry(), &model)?;
     let mut torques = vec![0.0; model.joint_count()];
 
     let (mut shown, mut hit) = (String::new(), false);

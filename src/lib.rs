@@ -10,7 +10,7 @@
 //!
 //! ```
 //! use aplomb::framework::scenario::Scenario;
-//! use aplomb::framework::simulation::Simulation;
+//! use aplomb::framework::run::Simulation;
 //!
 //! // A character with its repertoire: scenario → simulation.
 //! let scenario = Scenario::standing("humanoid", 3.0);

@@ -28,8 +28,8 @@ mod video;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
-use aplomb_framework::file::write_atomically;
-use aplomb_framework::trajectory::Trajectory;
+use aplomb_framework::input::write_atomically;
+use aplomb_framework::run::Trajectory;
 use svg::node::element::Group;
 
 pub use animation::{AnimationOptions, gif};

@@ -5,8 +5,7 @@
 
 use std::path::Path;
 
-use aplomb_framework::error::{Error, Result};
-use aplomb_framework::file::Source;
+use aplomb_framework::input::{Error, Result, Source};
 use aplomb_framework::scenario::Scenario;
 
 /// Every scenario of the folder under its name.
@@ -45,7 +44,7 @@ const CLIPS: &str = "clips";
 /// let story = aplomb::scenarios::load("story")?;
 /// assert_eq!(story.characters[0].character, "humanoid");
 /// assert!(aplomb::scenarios::load("stroy").unwrap_err().to_string().contains("'story'"));
-/// # Ok::<(), aplomb::framework::Error>(())
+/// # Ok::<(), aplomb_framework::Error>(())
 /// ```
 pub fn load(name_or_path: &str) -> Result<Scenario> {
     if let Some((name, text)) = SHIPPED.iter().find(|(n, _)| *n == name_or_path) {

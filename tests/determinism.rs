@@ -3,9 +3,8 @@
 
 #![allow(clippy::unwrap_used)]
 
-use aplomb::framework::scenario::{Happening, Number, Scenario};
-use aplomb::framework::simulation::Simulation;
-use aplomb::framework::trajectory::Trajectory;
+use aplomb::framework::run::{Simulation, Trajectory};
+use aplomb::framework::scenario::{Number, Scenario, ScheduledInput};
 use assert_cmd::cargo::cargo_bin_cmd;
 use serde_json::Value;
 
@@ -16,7 +15,7 @@ const END: f64 = 2.5;
 /// A hard push from the front.
 fn fall() -> Simulation {
     let mut scenario = Scenario::standing("humanoid", END);
-    scenario.events.push(Happening::Push {
+    scenario.events.push(ScheduledInput::Push {
         at: Number::Value(0.3),
         link: "torso".to_owned(),
         impulse: Number::Value(-150.0),

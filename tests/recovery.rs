@@ -1,8 +1,8 @@
 //! Whatever happens to the humanoid, it ends on its feet: the scenarios of `tests/scenarios/recovery`, each with what it expects.
 
+use aplomb::framework::events::EventKind;
+use aplomb::framework::run::Simulation;
 use aplomb::framework::scenario::Scenario;
-use aplomb::framework::simulation::Simulation;
-use aplomb::framework::trajectory::EventKind;
 
 #[test]
 fn every_scenario_of_recovery_ends_as_it_expects() {
@@ -19,12 +19,7 @@ fn every_scenario_of_recovery_ends_as_it_expects() {
         assert!(!scenario.expect.is_empty(), "{}", file.display());
         let mut run = Simulation::new(&scenario, &registry).unwrap();
         run.run(scenario.duration);
-        assert_eq!(
-            run.disappointment(&scenario.expect),
-            None,
-            "{}",
-            file.display()
-        );
+        assert_eq!(run.unmet(&scenario.expect), None, "{}", file.display());
     }
 }
 
@@ -33,7 +28,7 @@ fn the_story_goes_from_a_push_over_a_fall_and_a_roll_to_standing_and_stepping() 
     let scenario = aplomb::scenarios::load("story").unwrap();
     let mut run = Simulation::new(&scenario, &aplomb::controllers::registry()).unwrap();
     run.run(scenario.duration);
-    assert_eq!(run.disappointment(&scenario.expect), None);
+    assert_eq!(run.unmet(&scenario.expect), None);
 }
 
 #[test]

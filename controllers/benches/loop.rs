@@ -3,20 +3,16 @@
 
 use std::sync::Arc;
 
-use aplomb_controllers::cmrt::{Cmrt, Spline};
-use aplomb_controllers::gains::Gains;
-use aplomb_controllers::momentum::{Formulation, Momentum, Reference};
+use aplomb_controllers::kinds::cmrt::{Cmrt, Spline};
+use aplomb_controllers::momentum::{Formulation, Gains, Momentum, Reference};
 use aplomb_controllers::registry;
-use aplomb_framework::boundary::{Boundary, Calibration, Decision};
-use aplomb_framework::controller::Controller;
-use aplomb_framework::dynamics::Dynamics;
-use aplomb_framework::file::Source;
-use aplomb_framework::model::Model;
-use aplomb_framework::repertoire;
+use aplomb_framework::character::{Dynamics, Model};
+use aplomb_framework::control::boundary::{Calibration, DecisionFunction};
+use aplomb_framework::control::{Boundary, Controller, Supervisor, repertoire};
+use aplomb_framework::input::Source;
+use aplomb_framework::run::Simulation;
 use aplomb_framework::scenario::Scenario;
-use aplomb_framework::sensors::{Posture, Sensors};
-use aplomb_framework::simulation::Simulation;
-use aplomb_framework::supervisor::Supervisor;
+use aplomb_framework::sensing::{Posture, Sensors};
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 
@@ -150,7 +146,7 @@ fn learned_boundary(now: &Sensors) -> Boundary {
         features: names.map(|n| n.parse().unwrap()).collect(),
         mean: vec![0.0; COUNT],
         scale: vec![1.0; COUNT],
-        decision: Decision::Polynomial {
+        decision: DecisionFunction::Polynomial {
             degree: 2,
             coefficients: (0..231).map(|i| f64::from(i % 7) - 3.0).collect(),
         },

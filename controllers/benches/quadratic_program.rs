@@ -1,5 +1,5 @@
 //! Times of one solve.
-use aplomb_controllers::quadratic_program::{ActiveSet, Outcome, Problem};
+use aplomb_controllers::momentum::quadratic_program::{ActiveSet, Problem, Solution};
 use divan::{Bencher, black_box};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -1,5 +1,6 @@
 //! A controller of one's own, from type to timeline: `wave` holds still and swings an arm.
-use aplomb_controllers::{registry, servo::Servo};
+use aplomb_controllers::registry;
+use aplomb_controllers::servo::Servo;
 use aplomb_framework::prelude::*;
 
 /// Contract, servos, target pose (rad, one a joint), the joint that swings.

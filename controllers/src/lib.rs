@@ -2,46 +2,36 @@
 //!
 //! | file | kind | what it does |
 //! |---|---|---|
-//! | [`balance`] | `balance` | stands by momentum control |
-//! | [`stance`] | `stance` | stands as an inverted pendulum |
-//! | [`cmrt`] | `cmrt` | bends, catches, punches, pushes: balance that anticipates a task |
-//! | [`step`] | `step` | puts a foot where the fall is caught, the other beside it; stands up from a crouch |
-//! | [`fall`] | `fall` | breaks falls with the hands, folds knees and trunk |
-//! | [`rest`] | `rest` | lets go; the fallback |
-//! | [`pose`] | `pose` | a state machine of target poses, as data |
+//! | [`balance`](kinds::balance) | `balance` | stands by momentum control |
+//! | [`stance`](kinds::stance) | `stance` | stands as an inverted pendulum |
+//! | [`cmrt`](kinds::cmrt) | `cmrt` | bends, catches, punches, pushes: balance that anticipates a task |
+//! | [`step`](kinds::step) | `step` | puts a foot where the fall is caught, the other beside it; stands up from a crouch |
+//! | [`fall`](kinds::fall) | `fall` | breaks falls with the hands, folds knees and trunk |
+//! | [`rest`](kinds::rest) | `rest` | lets go; the fallback |
+//! | [`pose`](kinds::pose) | `pose` | a state machine of target poses, as data |
 //!
 //! They share [`momentum`] (momentum control with its [`gains`]), [`problem`] and [`quadratic_program`] (its
 //! program and solver), [`servo`] (joint servos) and [`target`] (poses by joint name); `upright` is what
 //! balancing and stepping have in common.
 
-pub mod balance;
-pub mod cmrt;
-pub mod fall;
-pub mod gains;
+pub mod kinds;
 pub mod momentum;
-pub mod pose;
-pub mod problem;
-pub mod quadratic_program;
-pub mod rest;
 pub mod servo;
-pub mod stance;
-pub mod step;
 pub mod target;
-mod upright;
 
-use aplomb_framework::registry::Registry;
+use aplomb_framework::control::Registry;
 
 /// All the kinds of controllers and all shipped files.
 #[must_use]
 pub fn registry() -> Registry {
     let registry = Registry::new()
-        .with::<balance::BalanceSpec>()
-        .with::<cmrt::CmrtSpec>()
-        .with::<stance::StanceSpec>()
-        .with::<step::StepSpec>()
-        .with::<fall::FallSpec>()
-        .with::<rest::RestSpec>()
-        .with::<pose::PoseSpec>();
+        .with::<kinds::balance::BalanceSpec>()
+        .with::<kinds::cmrt::CmrtSpec>()
+        .with::<kinds::stance::StanceSpec>()
+        .with::<kinds::step::StepSpec>()
+        .with::<kinds::fall::FallSpec>()
+        .with::<kinds::rest::RestSpec>()
+        .with::<kinds::pose::PoseSpec>();
     FILES
         .iter()
         .fold(registry, |r, (name, text)| r.with_file(name, text))
@@ -73,16 +63,16 @@ const FILES: &[(&str, &str)] = shipped![
     "learned/rise_sitting.boundary.ron",
     "learned/rise_supine.boundary.ron",
     "learned/roll.boundary.ron",
-    "poses/bow.ron",
-    "poses/free_arms.ron",
-    "poses/lower.ron",
-    "poses/rise_hands_and_feet.ron",
-    "poses/rise_kneeling.ron",
-    "poses/rise_prone.ron",
-    "poses/rise_sitting.ron",
-    "poses/rise_supine.ron",
-    "poses/roll.ron",
-    "poses/roll_backward.ron",
+    "skills/bow.ron",
+    "skills/free_arms.ron",
+    "skills/lower.ron",
+    "skills/rise_hands_and_feet.ron",
+    "skills/rise_kneeling.ron",
+    "skills/rise_prone.ron",
+    "skills/rise_sitting.ron",
+    "skills/rise_supine.ron",
+    "skills/roll.ron",
+    "skills/roll_backward.ron",
     "repertoires/humanoid.ron",
     "repertoires/learned.ron",
     "repertoires/limp.ron",

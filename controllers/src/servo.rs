@@ -5,8 +5,8 @@
 //! Damping acts explicitly, a step late: where the joints of a light link damp it so much that it
 //! would overshoot within a step of 1 ms, they are damped less.
 
-use aplomb_framework::model::Model;
-use aplomb_framework::sensors::Sensors;
+use aplomb_framework::character::Model;
+use aplomb_framework::sensing::Sensors;
 
 /// Servos of all joints.
 #[derive(Debug, Clone)]

@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use aplomb_framework::model::Model;
-use aplomb_framework::{Error, Result};
+use aplomb_framework::character::Model;
+use aplomb_framework::input::{Error, Result};
 
 /// Target angles by joint name or stem, rad.
 pub type NamedAngles = BTreeMap<String, f64>;

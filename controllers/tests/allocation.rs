@@ -7,13 +7,11 @@
 
 use allocation_counter::measure;
 use aplomb_controllers::registry;
-use aplomb_framework::controller::Controller;
-use aplomb_framework::file::{Source, options};
-use aplomb_framework::model::{Model, Shape};
-use aplomb_framework::repertoire;
+use aplomb_framework::character::{Model, Shape, State};
+use aplomb_framework::control::{Controller, repertoire};
+use aplomb_framework::input::{Source, options};
+use aplomb_framework::run::Simulation;
 use aplomb_framework::scenario::Scenario;
-use aplomb_framework::simulation::Simulation;
-use aplomb_framework::state::State;
 use aplomb_framework::world::{Prop, Settings, World};
 
 /// Allocations of the engine a step, in `actuate` and in `step`.

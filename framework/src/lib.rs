@@ -1,5 +1,5 @@
 //! The framework of Aplomb: characters, their dynamics and bodies, sensors, the controller
-//! contract and the supervisor.
+//! contract, the supervisor, and runs.
 //!
 //! # Units, frames, signs
 //!
@@ -9,71 +9,37 @@
 //! forward; elbow + flexes; hip + flexes; knee − flexes; ankle + lifts the toes. A link's frame
 //! lies at its joint, with axes as the world's when all angles are 0.
 //!
-//! # Data flow
+//! # Folders
 //!
-//! - character file → [`model`] → [`body`] in a [`world`]
-//! - body → [`state`] → [`kinematics`] → [`sensors`] → [`feature`] → [`condition`]
-//! - boundary file → [`boundary`], a learned region → [`condition`]
-//! - conditions → [`contract`] → [`controller`] → [`supervisor`] → torques → body
-//! - state → [`dynamics`] → controllers that need M, h, A and Jacobians
-//! - files → [`registry`] → [`repertoire`] → supervisor; text → [`command`] → supervisor
-//! - [`scenario`] → [`simulation`] → [`trajectory`]
+//! Each depends only on those above it in this list.
 //!
-//! Files whose items are found elsewhere: `model_file`, `model_tree`, `model_digest` (in [`model`]),
-//! `vocabulary` ([`feature`]), `boundary_bounds`, `boundary_decision` ([`boundary`]), `pool`,
-//! `decision` ([`supervisor`]), `scenario_bounds`, `scenario_number`, `scenario_props`,
-//! `expectation` ([`scenario`]), `start`, `schedule`, `actor`, `watch` ([`simulation`]), `event`,
-//! `trajectory_file` ([`trajectory`]), `settings`, `prop`, `fastening`, `grips` ([`world`]),
-//! `contact` ([`body`]), `sensed_prop` ([`sensors`]).
+//! | folder | data in → data out |
+//! |---|---|
+//! | [`input`] | path → text, or an error with its place |
+//! | [`events`] | what happens in a run |
+//! | [`character`] | character file → model; state → kinematics, dynamics |
+//! | [`sensing`] | state, contacts → sensors → features |
+//! | [`world`] | models, props, torques → motion, contacts; the physics engine |
+//! | [`control`] | files → controllers → supervisor; sensors → bids → torques |
+//! | [`scenario`] | scenario file → who takes part, what is done, what is expected |
+//! | [`run`] | scenario → simulation → events, recording |
 
-mod actor;
-pub mod body;
-pub mod boundary;
-mod boundary_bounds;
-mod boundary_decision;
-pub mod command;
-pub mod condition;
-mod contact;
-pub mod contract;
-pub mod controller;
-mod decision;
-pub mod dynamics;
-pub mod error;
-mod event;
-mod expectation;
-mod fastening;
-pub mod feature;
-pub mod file;
-mod grips;
-pub mod kinematics;
-pub mod model;
-mod model_digest;
-mod model_file;
-mod model_tree;
-mod pool;
+pub mod character;
+pub mod control;
+pub mod events;
+pub mod input;
 pub mod prelude;
-mod prop;
-pub mod registry;
-pub mod repertoire;
+pub mod run;
 pub mod scenario;
-mod scenario_bounds;
-mod scenario_number;
-mod scenario_props;
-mod schedule;
-mod sensed_prop;
-pub mod sensors;
-mod settings;
-pub mod simulation;
-mod start;
-pub mod state;
-pub mod supervisor;
-pub mod trajectory;
-mod trajectory_file;
-mod vocabulary;
-mod watch;
+pub mod sensing;
 pub mod world;
 
-pub use error::{Error, Result};
+pub use character::Model;
+pub use control::{Condition, Contract, Controller, Progress, Registry, Spec, Supervisor};
+pub use input::{Error, Result};
+pub use run::Simulation;
+pub use scenario::Scenario;
+pub use sensing::Sensors;
 
-/// The engine, for those who own the sets that a [`body::Body`] lives in.
+/// The engine, for those who own the sets that a [`world::Body`] lives in.
 pub use rapier2d;

@@ -2,11 +2,9 @@
 
 pub use std::sync::Arc;
 
-pub use crate::contract::Contract;
-pub use crate::controller::{Controller, Progress};
-pub use crate::model::Model;
-pub use crate::registry::{Registry, Spec};
+pub use crate::character::Model;
+pub use crate::control::{Contract, Controller, Progress, Registry, Spec};
+pub use crate::input::{Error, Result};
+pub use crate::run::Simulation;
 pub use crate::scenario::Scenario;
-pub use crate::sensors::{Posture, Sensors};
-pub use crate::simulation::Simulation;
-pub use crate::{Error, Result};
+pub use crate::sensing::{Posture, Sensors};

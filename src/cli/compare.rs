@@ -13,7 +13,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use aplomb::framework::file::write_atomically;
+use aplomb::framework::input::write_atomically;
 use clap::{Args, ValueEnum};
 
 use super::Verdict;

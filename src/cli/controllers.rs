@@ -4,11 +4,9 @@ use std::collections::BTreeMap;
 use std::io::Write;
 
 use anyhow::Result;
-use aplomb::framework::command::Answer;
-use aplomb::framework::contract::Contract;
-use aplomb::framework::feature::Feature;
-use aplomb::framework::repertoire;
-use aplomb::framework::simulation::Simulation;
+use aplomb::framework::control::{Answer, Contract, repertoire};
+use aplomb::framework::run::Simulation;
+use aplomb::framework::sensing::Feature;
 use clap::Args;
 use serde::Serialize;
 

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use aplomb::framework::events::{Bid, Event, EventKind, Found, Reason, Unmet};
+use aplomb::framework::run::{Outcome, Simulation};
 use aplomb::framework::scenario::Scenario;
-use aplomb::framework::simulation::{Outcome, Simulation};
-use aplomb::framework::supervisor::Bid;
-use aplomb::framework::trajectory::{Event, EventKind};
 use serde::Serialize;
+use serde_json::{Map, Value, json};
 
 /// One run.
 #[derive(Debug, Serialize)]
@@ -43,81 +43,59 @@ struct EndJson {
 struct EventJson {
     t: f64,
     #[serde(flatten)]
-    kind: KindJson,
+    kind: Map<String, Value>,
     /// Where there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
     character: Option<usize>,
 }
 
-#[derive(Debug, Serialize)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-enum KindJson {
-    Push {
-        link: String,
-        /// Horizontal, N·s.
-        impulse: f64,
-    },
-    Command {
-        text: String,
-        accepted: bool,
-    },
-    Switch {
-        from: Option<String>,
-        to: String,
-        why: String,
-        #[serde(skip_serializing_if = "Option::is_none")]
-        bids: Option<Vec<Bid>>,
-    },
-    Refused {
-        command: String,
-        controller: Option<String>,
-        clause: String,
-        value: Option<f64>,
-    },
-    Fell,
-    Stood,
-    Other {
-        text: String,
-    },
-}
-
-impl KindJson {
-    fn new(kind: &EventKind, explain: bool) -> Self {
-        match kind.clone() {
-            EventKind::Push { link, impulse } => Self::Push {
-                link,
-                impulse: impulse[0],
-            },
-            EventKind::Command { text, accepted } => Self::Command { text, accepted },
-            EventKind::Switch {
-                from,
-                to,
-                why,
-                bids,
-            } => Self::Switch {
-                from,
-                to,
-                why,
-                bids: explain.then_some(bids),
-            },
-            EventKind::Refused {
-                command,
-                controller,
-                clause,
-                value,
-            } => Self::Refused {
-                command,
-                controller,
-                clause,
-                value,
-            },
-            EventKind::Fell => Self::Fell,
-            EventKind::Stood => Self::Stood,
-            other => Self::Other {
-                text: format!("{other:?}"),
-            },
+/// An event's name and fields, in the names of the JSON: `why` for a switch's reason, `clause` and
+/// `value` for what did not hold, `impulse` for the horizontal part. Bids only if they are wanted.
+fn fields(kind: &EventKind, explain: bool) -> Map<String, Value> {
+    let mut fields = Map::new();
+    fields.insert("kind".to_owned(), kind.name().into());
+    let tagged = serde_json::to_value(kind).unwrap_or_default();
+    let inner = tagged.as_object().and_then(|o| o.values().next());
+    for (name, value) in inner.and_then(Value::as_object).into_iter().flatten() {
+        match name.as_str() {
+            "impulse" | "bids" | "reason" | "unmet" => {}
+            _ => drop(fields.insert(name.clone(), value.clone())),
         }
     }
+    match kind {
+        EventKind::Push { impulse, .. } => {
+            fields.insert("impulse".to_owned(), impulse[0].into());
+        }
+        EventKind::Switch { reason, bids, .. } => {
+            fields.insert("why".to_owned(), reason.to_string().into());
+            if let Reason::Failed(unmet) = reason {
+                clause(&mut fields, unmet);
+            }
+            if explain {
+                fields.insert("bids".to_owned(), bids.iter().map(bid).collect());
+            }
+        }
+        EventKind::Refused { unmet, .. } => clause(&mut fields, unmet),
+        _ => {}
+    }
+    fields
+}
+
+fn clause(fields: &mut Map<String, Value>, unmet: &Unmet) {
+    let text = match unmet.found {
+        Found::Value(_) => unmet.clause.clone(),
+        _ => unmet.to_string(),
+    };
+    fields.insert("clause".to_owned(), text.into());
+    fields.insert("value".to_owned(), unmet.value().into());
+}
+
+fn bid(bid: &Bid) -> Value {
+    json!({
+        "controller": bid.controller,
+        "suitability": bid.suitability,
+        "refusal": bid.refusal.as_ref().map(ToString::to_string),
+    })
 }
 
 impl From<Outcome> for EndJson {
@@ -144,7 +122,7 @@ impl RunJson {
         let several = count > 1;
         let event = |e: &Event| EventJson {
             t: e.time,
-            kind: KindJson::new(&e.kind, explain),
+            kind: fields(&e.kind, explain),
             character: several.then_some(e.character),
         };
         let ends = || (0..count).map(|i| simulation.outcome(i).into());
@@ -163,7 +141,7 @@ impl RunJson {
             end: simulation.outcome(0).into(),
             ends: several.then(|| ends().collect()),
             peak_torque: joints.zip(peaks).collect(),
-            unmet: simulation.disappointment(&scenario.expect),
+            unmet: simulation.unmet(&scenario.expect),
         }
     }
 }

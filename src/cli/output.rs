@@ -7,8 +7,8 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use anyhow::{Result, bail, ensure};
-use aplomb::framework::Error;
-use aplomb::framework::trajectory::Trajectory;
+use aplomb::framework::input::Error;
+use aplomb::framework::run::Trajectory;
 use serde::Serialize;
 
 /// What [`aplomb::render::write`] draws into.

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use aplomb::framework::simulation::Simulation;
+use aplomb::framework::run::Simulation;
 
 /// s simulated between two looks at the clock.
 const CHUNK: f64 = 0.1;

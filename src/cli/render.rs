@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::{Result, ensure};
-use aplomb::framework::trajectory::Trajectory;
+use aplomb::framework::run::Trajectory;
 use clap::Args;
 
 use super::Verdict;

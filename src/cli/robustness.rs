@@ -8,10 +8,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use anyhow::Result;
+use aplomb::training::exercise::rising::Goal;
+use aplomb::training::exercise::skill::Skill;
 use aplomb::training::exercise::{Drill, Exercise, Task};
-use aplomb::training::rising::Goal;
-use aplomb::training::skill::Skill;
-use aplomb::training::worlds::Worlds;
+use aplomb::training::situations::Worlds;
 use clap::Args;
 use serde::Serialize;
 

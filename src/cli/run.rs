@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
+use aplomb::framework::run::Simulation;
 use aplomb::framework::scenario::Scenario;
-use aplomb::framework::simulation::Simulation;
 use clap::Args;
 
 use super::json::RunJson;
@@ -80,7 +80,7 @@ impl RunArgs {
         } else {
             timeline::print(&mut told, &simulation, &scenario, self.explain)?;
         }
-        let unmet = simulation.disappointment(&scenario.expect);
+        let unmet = simulation.unmet(&scenario.expect);
         if let Some(recording) = simulation.into_recording() {
             let (record, render) = (self.record.as_deref(), self.render.as_deref());
             write_recording(&recording, record, render)?;

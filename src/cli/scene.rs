@@ -5,12 +5,11 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, bail, ensure};
-use aplomb::framework::error::Error;
-use aplomb::framework::model::Model;
-use aplomb::framework::registry::Registry;
-use aplomb::framework::scenario::{Role, Scenario};
-use aplomb::framework::simulation::Simulation;
-use aplomb::framework::trajectory::row_width;
+use aplomb::framework::character::Model;
+use aplomb::framework::control::Registry;
+use aplomb::framework::input::Error;
+use aplomb::framework::run::{Simulation, row_width};
+use aplomb::framework::scenario::{Participant, Scenario};
 use clap::Args;
 
 use super::values::{Setting, whole};
@@ -97,7 +96,7 @@ pub(super) fn set_all(scenario: &mut Scenario, settings: &[Setting]) -> Result<(
 }
 
 /// Says what is known when a repertoire is neither shipped nor a file.
-fn check_repertoire(role: &Role, registry: &Registry) -> Result<()> {
+fn check_repertoire(role: &Participant, registry: &Registry) -> Result<()> {
     let model = Model::load(&role.character)?;
     let name = role.repertoire(&model);
     let shipped = registry.file(&format!("repertoires/{name}.ron"));

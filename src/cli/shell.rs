@@ -6,9 +6,9 @@ use std::io::{self, BufRead, IsTerminal, Read, Write};
 use std::path::PathBuf;
 
 use anyhow::{Result, anyhow, bail, ensure};
-use aplomb::framework::error::shortened;
-use aplomb::framework::scenario::LONGEST;
-use aplomb::framework::simulation::Simulation;
+use aplomb::framework::input::shortened;
+use aplomb::framework::run::Simulation;
+use aplomb::framework::scenario::LONGEST_RUN;
 use clap::Args;
 
 use super::controllers::usage;
@@ -51,8 +51,8 @@ pub(super) struct ShellArgs {
 impl ShellArgs {
     pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
         let registry = aplomb::controllers::registry();
-        let mut scenario = self.scene.load(LONGEST, &registry)?;
-        scenario.duration = LONGEST;
+        let mut scenario = self.scene.load(LONGEST_RUN, &registry)?;
+        scenario.duration = LONGEST_RUN;
         self.record.as_deref().map_or(Ok(()), check_writable)?;
         let mut simulation = Simulation::new(&scenario, &registry)?;
         if self.record.is_some() {
@@ -180,12 +180,12 @@ impl Shell {
     }
 
     fn wait(&mut self, seconds: &str, out: &mut dyn Write) -> Result<()> {
-        let left = LONGEST - self.simulation.time();
-        let seconds = number(0.0, LONGEST, "s")(seconds)
+        let left = LONGEST_RUN - self.simulation.time();
+        let seconds = number(0.0, LONGEST_RUN, "s")(seconds)
             .map_err(|e| anyhow!("wait '{}'; {e}", shortened(seconds)))?;
         ensure!(
             seconds <= left,
-            "a session lasts at most {LONGEST} s, of which {left:.3} s are left"
+            "a session lasts at most {LONGEST_RUN} s, of which {left:.3} s are left"
         );
         progress::run(&mut self.simulation, seconds);
         self.tell(out)

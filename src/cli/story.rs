@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use anyhow::Result;
-use aplomb::framework::simulation::Simulation;
+use aplomb::framework::run::Simulation;
 
 use super::output::{check_picture, check_writable};
 use super::{Verdict, progress, timeline};
@@ -31,7 +31,7 @@ pub(super) fn tell(out: &mut dyn Write) -> Result<Verdict> {
     // The files first: a reader of the text who leaves early takes nothing away.
     let mut told = Vec::new();
     timeline::print(&mut told, &simulation, &scenario, false)?;
-    let unmet = simulation.disappointment(&scenario.expect);
+    let unmet = simulation.unmet(&scenario.expect);
     if let Some(trajectory) = simulation.into_recording() {
         trajectory.write(recording)?;
         aplomb::render::write(&trajectory, picture, true)?;

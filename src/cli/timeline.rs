@@ -2,11 +2,10 @@
 
 use std::io::{Result, Write};
 
+use aplomb::framework::events::{Bid, Event, EventKind};
+use aplomb::framework::run::Simulation;
 use aplomb::framework::scenario::Scenario;
-use aplomb::framework::sensors::Posture;
-use aplomb::framework::simulation::Simulation;
-use aplomb::framework::supervisor::Bid;
-use aplomb::framework::trajectory::{Event, EventKind};
+use aplomb::framework::sensing::Posture;
 
 /// How much is told.
 #[derive(Debug, Clone, Copy)]
@@ -52,7 +51,7 @@ pub(super) fn print_event(out: &mut dyn Write, event: &Event, detail: Detail) ->
     } else {
         String::new()
     };
-    writeln!(out, "{:9.3} s  {who}{}", event.time, text(&event.kind))?;
+    writeln!(out, "{:9.3} s  {who}{}", event.time, event.kind)?;
     if let (true, EventKind::Switch { bids, .. }) = (detail.explain, &event.kind) {
         print_bids(out, bids, "             ")?;
     }
@@ -71,33 +70,6 @@ pub(super) fn print_bids(out: &mut dyn Write, bids: &[Bid], indent: &str) -> Res
         }
     }
     Ok(())
-}
-
-fn text(kind: &EventKind) -> String {
-    match kind {
-        EventKind::Push { link, impulse } => format!("push     {link} {:+} N·s", impulse[0]),
-        EventKind::Command { text, accepted } => {
-            let answer = if *accepted {
-                "taken up"
-            } else {
-                "not taken up"
-            };
-            format!("command  {text}: {answer}")
-        }
-        EventKind::Switch { from, to, why, .. } => match from {
-            Some(from) => format!("switch   {from} → {to} ({why})"),
-            None => format!("switch   → {to} ({why})"),
-        },
-        EventKind::Refused {
-            controller, clause, ..
-        } => match controller {
-            Some(controller) => format!("refused  by {controller}: {clause}"),
-            None => format!("refused  {clause}"),
-        },
-        EventKind::Fell => "fell".to_owned(),
-        EventKind::Stood => "stood".to_owned(),
-        other => format!("{other:?}"),
-    }
 }
 
 /// The state of a character in a line.

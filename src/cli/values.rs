@@ -4,9 +4,9 @@
 
 use std::str::FromStr;
 
-use aplomb::framework::command::Command;
-use aplomb::framework::error::shortened;
-use aplomb::framework::scenario::{Happening, LONGEST, Number, PUSH_DURATION};
+use aplomb::framework::control::Command;
+use aplomb::framework::input::shortened;
+use aplomb::framework::scenario::{LONGEST_RUN, Number, PUSH_DURATION, ScheduledInput};
 
 /// The strongest push, N·s either way.
 pub(super) const STRONGEST: f64 = 1e5;
@@ -36,11 +36,11 @@ pub(super) fn whole(
 
 /// A run's duration, s.
 pub(super) fn duration(text: &str) -> Result<f64, String> {
-    number(1e-3, LONGEST, "s")(text)
+    number(1e-3, LONGEST_RUN, "s")(text)
 }
 
 fn time(text: &str) -> Result<f64, String> {
-    number(0.0, LONGEST, "s")(text).map_err(|e| format!("time '{}'; {e}", shortened(text)))
+    number(0.0, LONGEST_RUN, "s")(text).map_err(|e| format!("time '{}'; {e}", shortened(text)))
 }
 
 /// An impulse, N·s.
@@ -99,7 +99,7 @@ pub(super) trait Timed {
     /// s
     fn at(&self) -> f64;
     /// As a scenario would have it, for the first character.
-    fn happening(&self) -> Happening;
+    fn happening(&self) -> ScheduledInput;
     /// The option as it was given.
     fn option(&self) -> String;
 }
@@ -109,8 +109,8 @@ impl Timed for Push {
         self.at
     }
 
-    fn happening(&self) -> Happening {
-        Happening::Push {
+    fn happening(&self) -> ScheduledInput {
+        ScheduledInput::Push {
             at: Number::Value(self.at),
             link: self.link.clone(),
             impulse: Number::Value(self.impulse),
@@ -134,8 +134,8 @@ impl Timed for TimedCommand {
         self.at
     }
 
-    fn happening(&self) -> Happening {
-        Happening::Command {
+    fn happening(&self) -> ScheduledInput {
+        ScheduledInput::Command {
             at: Number::Value(self.at),
             text: self.text.clone(),
             character: 0,

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use anyhow::{Context, Result, bail};
-use aplomb_framework::trajectory::Trajectory;
+use aplomb_framework::run::Trajectory;
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use rayon::prelude::*;
 use resvg::tiny_skia::Pixmap;

@@ -15,8 +15,8 @@ mod samples;
 mod variance;
 
 use anyhow::{Result, ensure};
-use aplomb_controllers::cmrt::Cmrt;
-use aplomb_framework::trajectory::Trajectory;
+use aplomb_controllers::kinds::cmrt::Cmrt;
+use aplomb_framework::run::Trajectory;
 use aplomb_training::anticipation::basis::Basis;
 
 /// A picture and what to call it.

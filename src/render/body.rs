@@ -1,9 +1,7 @@
 //! Draws a character: filled limbs in layers, the far side darker and behind, a face that shows
 //! where it looks.
 
-use aplomb_framework::kinematics::Kinematics;
-use aplomb_framework::model::{Link, Model, Point, Shape};
-use aplomb_framework::state::State;
+use aplomb_framework::character::{Kinematics, Link, Model, Point, Shape, State};
 use svg::node::element::{Circle, Group, Polyline};
 
 use super::camera::Camera;

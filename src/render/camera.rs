@@ -1,6 +1,6 @@
 //! From the world to the picture, and how a picture follows its characters.
 
-use aplomb_framework::trajectory::Trajectory;
+use aplomb_framework::run::Trajectory;
 
 use super::body::pose;
 use super::drawable;

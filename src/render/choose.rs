@@ -1,7 +1,8 @@
 //! Which steps a film strip shows: first and last, what happened, and the rest where the picture
 //! changes most.
 
-use aplomb_framework::trajectory::{Event, EventKind, Trajectory};
+use aplomb_framework::events::{Event, EventKind};
+use aplomb_framework::run::Trajectory;
 
 use super::body::pose;
 use super::scene::PUSH_TIME;
@@ -90,9 +91,9 @@ fn wanted(trajectory: &Trajectory, event: &Event) -> Option<(u8, usize)> {
     let rank = match &event.kind {
         EventKind::Push { .. } => 0,
         EventKind::Fell | EventKind::Stood => 1,
-        EventKind::Command { .. } => 2,
         EventKind::Switch { .. } => 3,
-        _ => return None,
+        EventKind::Refused { .. } => return None,
+        _ => 2,
     };
     let after = event.time > trajectory.duration() + trajectory.header.dt;
     if after || event.character >= trajectory.models.len() {

@@ -11,7 +11,7 @@ mod limits;
 mod roc;
 
 use anyhow::{Result, bail};
-use aplomb_training::report::{Metrics, Report};
+use aplomb_training::preconditions::report::{Metrics, Report};
 
 /// The rivals' colours, the same in every figure.
 const SVM: &str = "#0072b2";

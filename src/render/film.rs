@@ -1,7 +1,8 @@
 //! A film strip: chosen frames in rows at one scale, and a legend.
 
 use anyhow::Result;
-use aplomb_framework::trajectory::{EventKind, Trajectory};
+use aplomb_framework::events::EventKind;
+use aplomb_framework::run::Trajectory;
 use svg::node::element::Group;
 
 use super::body::SKINS;
@@ -12,6 +13,7 @@ use super::scene::{Scene, window};
 use super::style::{
     FAINT_INK, FORCE, FRAME, INK, PUSH, arrow, line, px, rectangle, shortened, text, text_width,
 };
+use super::timeline::event_colour;
 use super::{GRAVITY, drawable};
 
 /// Width of a strip, SVG units.
@@ -98,10 +100,7 @@ fn panel(scene: &Scene<'_>, trajectory: &Trajectory, shot: &Shot, camera: &super
     for &event in &shot.events {
         match &trajectory.events[event].kind {
             EventKind::Push { .. } => pushes.push((event, 1.0)),
-            EventKind::Fell => lines.push(("fell".to_owned(), PUSH)),
-            EventKind::Stood => lines.push(("stood up".to_owned(), FORCE)),
-            EventKind::Command { text, .. } => lines.push((format!("“{text}”"), INK)),
-            _ => {}
+            other => lines.extend(other.label().map(|label| (label, event_colour(other)))),
         }
     }
     let size = [camera.width, camera.height];

@@ -1,7 +1,7 @@
 //! What is drawn over and under the bodies: centre of mass, centre of pressure, base of support,
 //! ground reaction force, pushes.
 
-use aplomb_framework::trajectory::Moment;
+use aplomb_framework::run::Moment;
 use svg::node::element::{Circle, Group, Path};
 
 use super::camera::Camera;

@@ -1,7 +1,7 @@
 //! One character's run over time: controllers, events, where it balances, how it holds itself.
 
 use anyhow::Result;
-use aplomb_framework::trajectory::Trajectory;
+use aplomb_framework::run::Trajectory;
 use svg::node::element::Group;
 
 use super::chart::{Chart, Style};

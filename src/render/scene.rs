@@ -1,8 +1,8 @@
 //! One instant: ground, props, characters, marks, tags.
 
-use aplomb_framework::kinematics::Kinematics;
-use aplomb_framework::model::Shape;
-use aplomb_framework::trajectory::{EventKind, Trajectory};
+use aplomb_framework::character::{Kinematics, Shape};
+use aplomb_framework::events::EventKind;
+use aplomb_framework::run::Trajectory;
 use svg::node::element::{Group, SVG};
 
 use super::GRAVITY;

@@ -1,7 +1,7 @@
 //! The numbers of one character that are plotted over time.
 
-use aplomb_framework::state::wrapped;
-use aplomb_framework::trajectory::Trajectory;
+use aplomb_framework::character::wrapped;
+use aplomb_framework::run::Trajectory;
 
 use super::GRAVITY;
 use super::body::pose;

@@ -1,8 +1,9 @@
 use std::sync::Arc;
 
-use aplomb_framework::model::Model;
-use aplomb_framework::sensors::Sensors;
-use aplomb_framework::trajectory::{Cast, Event, EventKind, Header, push_character};
+use aplomb_framework::character::Model;
+use aplomb_framework::events::{Event, EventKind};
+use aplomb_framework::run::{Cast, Header, push_character};
+use aplomb_framework::sensing::Sensors;
 
 use super::*;
 

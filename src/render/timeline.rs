@@ -1,7 +1,8 @@
 //! What a plot shows above its charts: the active controllers as a band, the events as upright
 //! lines with labels.
 
-use aplomb_framework::trajectory::{Event, EventKind, Trajectory};
+use aplomb_framework::events::EventKind;
+use aplomb_framework::run::Trajectory;
 use svg::node::element::Group;
 
 use super::chart::Chart;
@@ -93,25 +94,16 @@ pub(super) struct Label {
     left: bool,
 }
 
-fn event_text(event: &Event) -> Option<(String, &'static str)> {
-    Some(match &event.kind {
-        EventKind::Push { impulse, .. } => {
-            let amount = impulse[0].hypot(impulse[1]);
-            let known = amount.is_finite().then(|| format!("push {amount:.0} N·s"));
-            (known.unwrap_or_else(|| "push".to_owned()), PUSH)
-        }
-        EventKind::Command {
-            text,
-            accepted: true,
-        } => (format!("“{text}”"), INK),
-        EventKind::Command {
-            text,
-            accepted: false,
-        } => (format!("“{text}” not taken up"), INK),
-        EventKind::Fell => ("fell".to_owned(), PUSH),
-        EventKind::Stood => ("stood".to_owned(), FORCE),
-        _ => return None,
-    })
+/// The colour in which an event is told.
+pub(super) fn event_colour(kind: &EventKind) -> &'static str {
+    match kind {
+        EventKind::Push { .. }
+        | EventKind::Fell
+        | EventKind::Slipped { .. }
+        | EventKind::Broke { .. } => PUSH,
+        EventKind::Stood | EventKind::Grasped { .. } => FORCE,
+        _ => INK,
+    }
 }
 
 /// Events that are marked, each label in the lowest line where it does not touch another.
@@ -123,9 +115,10 @@ pub(super) fn event_labels(trajectory: &Trajectory, character: usize, chart: &Ch
         .iter()
         .filter(|e| e.character == character && e.time <= chart.span[1] + 1e-3)
     {
-        let Some((full, colour)) = event_text(event) else {
+        let Some(full) = event.kind.label() else {
             continue;
         };
+        let colour = event_colour(&event.kind);
         let x = chart.across(event.time.clamp(chart.span[0], chart.span[1]));
         let text = shortened(&full, 10.5, 200.0);
         let width = text_width(&text, 10.5) + 10.0;

@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Read, Write};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
-use aplomb_framework::trajectory::Trajectory;
+use aplomb_framework::run::Trajectory;
 
 use super::animation::{AnimationOptions, Film};
 

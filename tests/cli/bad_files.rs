@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use aplomb::framework::model::Model;
-use aplomb::framework::trajectory::Trajectory;
+use aplomb::framework::character::Model;
+use aplomb::framework::run::Trajectory;
 
 use crate::{called, refusal, refusals, scenario};
 

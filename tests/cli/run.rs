@@ -171,7 +171,7 @@ fn the_pool_is_listed() {
 fn what_was_learned_is_said_to_be() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
-    let digest = aplomb::framework::model::Model::load("humanoid")
+    let digest = aplomb::framework::character::Model::load("humanoid")
         .unwrap()
         .digest();
     // 0.2 − v: a probability of 1/2 at 0.2 m/s, the more the slower.
@@ -275,7 +275,7 @@ fn a_skill_in_a_file_works_in_another_folder() {
 
 #[test]
 fn pushes_inside_the_limits_are_stood_with_human_torques() {
-    let model = aplomb::framework::model::Model::load("humanoid").unwrap();
+    let model = aplomb::framework::character::Model::load("humanoid").unwrap();
     for impulse in [30, -28] {
         let run = json(&format!("run --duration 6 --push 1:torso:{impulse}"));
         assert_eq!(run["end"]["standing"], value!(true), "{impulse} N·s");

@@ -52,7 +52,7 @@ fn a_session_can_be_recorded() {
         .assert()
         .success();
     let path = folder.path().join("x.trajectory");
-    let recording = aplomb::framework::trajectory::Trajectory::read(&path).unwrap();
+    let recording = aplomb::framework::run::Trajectory::read(&path).unwrap();
     assert_eq!(recording.len(), 200);
 }
 

@@ -10,10 +10,10 @@ use crate::{called, refusals};
 
 /// A character that cannot stand and draws up its knees once it lies.
 const REPERTOIRE: &str = r#"(name: "tuck", fallback: "rest", controllers: [
-    File("tuck.ron"), File("poses/bow.ron"), File("skills/rest.ron"),
+    File("tuck.ron"), File("skills/bow.ron"), File("skills/rest.ron"),
 ])"#;
 
-const TUCK: &str = include_str!("../../training/src/skill/tuck.ron");
+const TUCK: &str = include_str!("../../training/src/exercise/skill/tuck.ron");
 
 const SEARCH: &str = "train poses tuck --repertoire r.ron --starts 2 --sigma 0.2 --seed 3";
 
@@ -194,7 +194,7 @@ fn another_controller_or_repertoire_is_another_search() {
         &TUCK.replace("0.5", "0.6"),
         "controller is another",
     );
-    let fewer = REPERTOIRE.replace(r#"File("poses/bow.ron"), "#, "");
+    let fewer = REPERTOIRE.replace(r#"File("skills/bow.ron"), "#, "");
     refused("r.ron", &fewer, "surroundings is ");
 }
 

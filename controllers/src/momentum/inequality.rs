@@ -4,10 +4,11 @@
 //! dynamics, feet's Jacobians, objective → program → q̈*, contact forces. It always has a solution
 //! but for the joints' ranges (letting go is one): without them it is solved again if need be.
 
-use aplomb_framework::sensors::{FootContact, Sensors};
+use aplomb_framework::sensing::{FootContact, Sensors};
 
-use super::{Momentum, Reference, add_row};
-use crate::quadratic_program::Outcome;
+use crate::momentum::control::Momentum;
+use crate::momentum::quadratic_program::Solution;
+use crate::momentum::reference::Reference;
 
 /// Rate at which joints are kept from their range's ends, 1/s.
 const RANGE_RATE: f64 = 25.0;
@@ -34,13 +35,8 @@ impl Momentum {
                     (true, ..) => self.gains.feet,
                 };
                 let row = &self.feet[(3 * f + k) * dof..(3 * f + k + 1) * dof];
-                add_row(
-                    &mut self.problem,
-                    n,
-                    row,
-                    self.feet_target[3 * f + k],
-                    weight,
-                );
+                self.problem
+                    .add_square(row, self.feet_target[3 * f + k], weight);
             }
         }
         for i in 0..3 {
@@ -56,10 +52,10 @@ impl Momentum {
         self.torque_rows(scale);
         let without_ranges = self.problem.inequalities.len();
         self.range_rows(now);
-        if self.solver.solve(&self.problem) != Outcome::Optimal {
+        if self.solver.solve(&self.problem) != Solution::Optimal {
             // The muscles cannot stop a joint in time: let its range do so.
             self.problem.inequalities.truncate(without_ranges);
-            if self.solver.solve(&self.problem) != Outcome::Optimal {
+            if self.solver.solve(&self.problem) != Solution::Optimal {
                 return false;
             }
         }

@@ -1,6 +1,6 @@
 //! Problems that are hard on the numbers: by the KKT conditions alone.
 
-use aplomb_controllers::quadratic_program::{ActiveSet, Outcome, Problem};
+use aplomb_controllers::momentum::quadratic_program::{ActiveSet, Problem, Solution};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -1,7 +1,7 @@
 //! Problems with a known answer, and that solving them allocates and remembers nothing.
 
 use allocation_counter::measure;
-use aplomb_controllers::quadratic_program::{ActiveSet, Outcome, Problem};
+use aplomb_controllers::momentum::quadratic_program::{ActiveSet, Problem, Solution};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT::*};
 use rand::{Rng, SeedableRng};

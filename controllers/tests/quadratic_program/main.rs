@@ -5,7 +5,7 @@ mod hard;
 mod known;
 mod refusals;
 
-use aplomb_controllers::quadratic_program::{ActiveSet, Problem};
+use aplomb_controllers::momentum::quadratic_program::{ActiveSet, Problem};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 

@@ -1,6 +1,6 @@
 //! Problems without a solution, with rows too many, or that are none.
 
-use aplomb_controllers::quadratic_program::{ActiveSet, Outcome, Problem};
+use aplomb_controllers::momentum::quadratic_program::{ActiveSet, Problem, Solution};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -1,10 +1,10 @@
 //! One balance, with the same gains, for every shipped character.
 
 use aplomb_controllers::registry;
-use aplomb_framework::model::Model;
-use aplomb_framework::repertoire;
-use aplomb_framework::scenario::{Happening, Scenario};
-use aplomb_framework::simulation::Simulation;
+use aplomb_framework::character::Model;
+use aplomb_framework::control::repertoire;
+use aplomb_framework::run::Simulation;
+use aplomb_framework::scenario::{Scenario, ScheduledInput};
 
 use super::built;
 
@@ -16,7 +16,7 @@ fn every_character_stands_and_takes_a_push() {
             let mut scenario = Scenario::standing(name, 5.0);
             // Over 0.1 s, to a third of a metre a second.
             let impulse = direction * 0.33 * model.total_mass();
-            scenario.events.push(Happening::Push {
+            scenario.events.push(ScheduledInput::Push {
                 at: 1.0.into(),
                 link: "torso".to_owned(),
                 impulse: impulse.into(),

@@ -8,12 +8,11 @@ mod step;
 use std::sync::Arc;
 
 use aplomb_controllers::registry;
-use aplomb_framework::controller::Controller;
-use aplomb_framework::file::Source;
-use aplomb_framework::model::Model;
-use aplomb_framework::registry::ControllerFile;
-use aplomb_framework::simulation::Simulation;
-use aplomb_framework::trajectory::{Event, EventKind};
+use aplomb_framework::character::Model;
+use aplomb_framework::control::{Controller, ControllerFile};
+use aplomb_framework::events::{Event, EventKind};
+use aplomb_framework::input::Source;
+use aplomb_framework::run::Simulation;
 
 fn humanoid() -> Arc<Model> {
     Model::load("humanoid").unwrap()

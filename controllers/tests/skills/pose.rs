@@ -1,10 +1,10 @@
 //! Pose control as data.
 
 use aplomb_controllers::registry;
-use aplomb_framework::file::Source;
-use aplomb_framework::repertoire;
+use aplomb_framework::control::repertoire;
+use aplomb_framework::input::Source;
+use aplomb_framework::run::Simulation;
 use aplomb_framework::scenario::Scenario;
-use aplomb_framework::simulation::Simulation;
 
 use super::{humanoid, switches};
 

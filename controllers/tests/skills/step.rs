@@ -1,9 +1,9 @@
 //! Protective steps.
 
 use aplomb_controllers::registry;
+use aplomb_framework::events::EventKind;
+use aplomb_framework::run::Simulation;
 use aplomb_framework::scenario::Scenario;
-use aplomb_framework::simulation::Simulation;
-use aplomb_framework::trajectory::EventKind;
 
 use super::{built, shipped, switches};
 

@@ -4,12 +4,13 @@
 
 use rapier2d::prelude::*;
 
-use super::{Hinge, Prop, PropMotion, World};
-use crate::body::vector;
-use crate::fastening::Fastening;
-use crate::grips::Touched;
-use crate::prop::Placed;
-use crate::sensed_prop::SensedProp;
+use crate::events::EventKind;
+use crate::sensing::SensedProp;
+use crate::world::body::vector;
+use crate::world::engine::World;
+use crate::world::fastening::{Fastening, Joined};
+use crate::world::grip::Touched;
+use crate::world::prop::{Hinge, Placed, Prop, PropMotion};
 
 /// Natural frequency of a prop's hinge that can break, Hz: stiff, but slow enough for its load to
 /// be seen.
@@ -43,7 +44,11 @@ impl World {
         let softness = hinge.breaks.is_finite().then_some(softness);
         let joints = &mut self.impulse_joints;
         let fastening = Fastening::new(joints, ends, hinge.breaks, softness);
-        self.hinges.push(Some(fastening));
+        self.hinges.push(Some(Joined {
+            prop: hinge.prop,
+            to: hinge.to,
+            fastening,
+        }));
         self.hinges.len() - 1
     }
 
@@ -112,21 +117,39 @@ impl World {
             narrow_phase: &self.narrow_phase,
         };
         let joints = &mut self.impulse_joints;
-        for (character, grips) in self.characters.iter().zip(&mut self.grips) {
-            grips.take(&character.body, &self.props, self.steps, &touched, joints);
+        for (i, (character, grips)) in self.characters.iter().zip(&mut self.grips).enumerate() {
+            let (body, props) = (&character.body, &self.props);
+            let events = &mut self.events;
+            grips.take(body, props, self.steps, &touched, joints, |link, prop| {
+                let link = body.model().links[link].name.clone();
+                let prop = props[prop].prop.name.clone();
+                events.push((i, EventKind::Grasped { link, prop }));
+            });
         }
     }
 
     /// What the last step has overloaded slips or breaks.
     pub(super) fn give_way(&mut self) {
         let joints = &mut self.impulse_joints;
-        for grips in &mut self.grips {
-            grips.slip(self.steps, joints, &self.settings);
+        for (i, (character, grips)) in self.characters.iter().zip(&mut self.grips).enumerate() {
+            let (body, props) = (&character.body, &self.props);
+            let events = &mut self.events;
+            grips.slip(body, self.steps, joints, &self.settings, |link, prop| {
+                let link = body.model().links[link].name.clone();
+                let prop = props[prop].prop.name.clone();
+                events.push((i, EventKind::Slipped { link, prop }));
+            });
         }
         for hinge in &mut self.hinges {
-            let overloaded = |h: &mut Fastening| !h.bears(joints, &self.settings);
+            let overloaded = |h: &mut Joined| !h.fastening.bears(joints, &self.settings);
             if let Some(broken) = hinge.take_if(overloaded) {
-                broken.undo(joints);
+                let name = |prop: usize| self.props[prop].prop.name.clone();
+                let kind = EventKind::Broke {
+                    prop: name(broken.prop),
+                    from: broken.to.map(name),
+                };
+                self.events.push((0, kind));
+                broken.fastening.undo(joints);
             }
         }
     }

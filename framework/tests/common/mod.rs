@@ -3,14 +3,10 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use aplomb_framework::Result;
-use aplomb_framework::command::Command;
-use aplomb_framework::condition::Condition;
-use aplomb_framework::contract::Contract;
-use aplomb_framework::controller::Controller;
-use aplomb_framework::model::Model;
-use aplomb_framework::registry::{Registry, Spec};
-use aplomb_framework::sensors::Sensors;
+use aplomb_framework::character::Model;
+use aplomb_framework::control::{Command, Condition, Contract, Controller, Registry, Spec};
+use aplomb_framework::input::Result;
+use aplomb_framework::sensing::Sensors;
 use serde::Deserialize;
 
 /// A controller that keeps whatever its contract says and sets all torques to one number. Broken

@@ -2,8 +2,7 @@
 //! each turned by the absolute angle of one link. Positions, Jacobians and J̇q̇ follow by
 //! differentiating that sum; nothing is recursive.
 
-use aplomb_framework::model::{Model, Point};
-use aplomb_framework::state::State;
+use aplomb_framework::character::{Model, Point, State};
 use nalgebra::{DMatrix, DVector};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
@@ -82,7 +81,7 @@ pub(crate) fn point(model: &Model, state: &State, link: usize, local: Point) -> 
     }
 }
 
-/// Everything that [`aplomb_framework::dynamics::Dynamics`] computes, summed over the links.
+/// Everything that [`aplomb_framework::character::Dynamics`] computes, summed over the links.
 pub(crate) struct Reference {
     pub(crate) mass_matrix: DMatrix<f64>,
     pub(crate) bias: DVector<f64>,

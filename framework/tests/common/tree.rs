@@ -1,7 +1,7 @@
 //! Random characters.
 
-use aplomb_framework::file::Source;
-use aplomb_framework::model::Model;
+use aplomb_framework::character::Model;
+use aplomb_framework::input::Source;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

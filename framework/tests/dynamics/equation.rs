@@ -1,6 +1,6 @@
 //! Mass matrix and bias.
 
-use aplomb_framework::state::State;
+use aplomb_framework::character::State;
 use nalgebra::DMatrix;
 
 use super::reference::Reference;

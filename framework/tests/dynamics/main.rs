@@ -11,10 +11,7 @@ mod equation;
 mod maps;
 mod motion;
 
-use aplomb_framework::dynamics::Dynamics;
-use aplomb_framework::kinematics::Kinematics;
-use aplomb_framework::model::Model;
-use aplomb_framework::state::State;
+use aplomb_framework::character::{Dynamics, Kinematics, Model, State};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use reference::random_state;
@@ -105,8 +102,8 @@ fn kinetic(model: &Model, q: &[f64], qdot: &[f64]) -> f64 {
     };
     kinematics.update(model, &state);
     let of = |(l, m): (
-        &aplomb_framework::model::Link,
-        &aplomb_framework::kinematics::LinkMotion,
+        &aplomb_framework::character::Link,
+        &aplomb_framework::character::LinkMotion,
     )| {
         let v2 = m.com_velocity[0].powi(2) + m.com_velocity[1].powi(2);
         0.5 * (l.mass * v2 + l.inertia * m.rate * m.rate)

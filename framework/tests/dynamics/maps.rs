@@ -1,7 +1,6 @@
 //! Centroidal map, kinematics and Jacobians, with their change in time.
 
-use aplomb_framework::model::Point;
-use aplomb_framework::state::State;
+use aplomb_framework::character::{Point, State};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

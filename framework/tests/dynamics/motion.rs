@@ -1,9 +1,7 @@
 //! What moves by the equation: free trees, pendulums.
 
-use aplomb_framework::dynamics::Dynamics;
-use aplomb_framework::file::Source;
-use aplomb_framework::model::Model;
-use aplomb_framework::state::State;
+use aplomb_framework::character::{Dynamics, Model, State};
+use aplomb_framework::input::Source;
 use nalgebra::{DMatrix, DVector};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -2,12 +2,10 @@
 
 use std::path::Path;
 
-use aplomb_framework::boundary::Boundary;
-use aplomb_framework::file::Source;
-use aplomb_framework::model::Model;
-use aplomb_framework::repertoire;
-use aplomb_framework::sensors::Sensors;
-use aplomb_framework::supervisor::Supervisor;
+use aplomb_framework::character::Model;
+use aplomb_framework::control::{Boundary, Supervisor, repertoire};
+use aplomb_framework::input::Source;
+use aplomb_framework::sensing::Sensors;
 
 use super::common::registry;
 use super::{changed, check_refusal, line_of};

@@ -1,6 +1,6 @@
 //! The built-in characters are what their files say.
 
-use aplomb_framework::model::Model;
+use aplomb_framework::character::Model;
 
 #[test]
 fn characters_have_their_mass_and_degrees_of_freedom() {

@@ -10,15 +10,15 @@ fn missed(expectation: &str, duration: f64) -> Option<String> {
         &format!("expect: [{expectation}]"),
     );
     let scenario = aplomb_framework::scenario::Scenario::parse(
-        &aplomb_framework::file::Source::new("shove.ron", text.as_str()),
+        &aplomb_framework::input::Source::new("shove.ron", text.as_str()),
     )
     .unwrap();
     let mut run = simulation(&text).unwrap();
     run.run(duration);
-    let missed = run.disappointment(&scenario.expect);
+    let missed = run.unmet(&scenario.expect);
     assert_eq!(run.met(&scenario.expect), missed.is_none());
     let clone = run.clone();
-    assert_eq!(clone.disappointment(&scenario.expect), missed);
+    assert_eq!(clone.unmet(&scenario.expect), missed);
     missed
 }
 

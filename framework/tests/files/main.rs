@@ -13,12 +13,11 @@ mod recordings;
 mod repertoires;
 mod scenarios;
 
-use aplomb_framework::file::Source;
-use aplomb_framework::model::Model;
-use aplomb_framework::registry::Registry;
-use aplomb_framework::repertoire;
+use aplomb_framework::character::Model;
+use aplomb_framework::control::{Registry, repertoire};
+use aplomb_framework::input::Source;
+use aplomb_framework::run::Simulation;
 use aplomb_framework::scenario::Scenario;
-use aplomb_framework::simulation::Simulation;
 use common::{PuppetSpec, registry};
 
 /// Two controllers, one of them written over several lines.

@@ -1,6 +1,6 @@
 //! Parameters of a scenario in props, hinges and commands.
 
-use aplomb_framework::file::Source;
+use aplomb_framework::input::Source;
 use aplomb_framework::scenario::Scenario;
 
 use super::{SCENARIO, changed, check_refusal, line_of, simulation};
@@ -218,9 +218,10 @@ fn the_mind_closes_the_hands() {
             &format!("spec: (grips: {grips}, "),
         );
         let registry = super::registry();
-        let model = aplomb_framework::model::Model::load("humanoid").unwrap();
+        let model = aplomb_framework::character::Model::load("humanoid").unwrap();
         let source = Source::new("pair.ron", pool);
-        let mind = aplomb_framework::repertoire::build(&source, None, &registry, &model).unwrap();
+        let mind =
+            aplomb_framework::control::repertoire::build(&source, None, &registry, &model).unwrap();
         let mut scenario = Scenario::standing("humanoid", 1.0);
         scenario.settings.gravity = 0.0;
         // A ball at the tips of the hands, above the thighs of somebody who bends.
@@ -228,8 +229,7 @@ fn the_mind_closes_the_hands() {
             .map(|(j, a)| (j.to_owned(), a))
             .into();
         let mut world = aplomb_framework::world::World::new(scenario.settings);
-        let state =
-            aplomb_framework::simulation::start_state(&model, &scenario.characters[0].start);
+        let state = aplomb_framework::run::start_state(&model, &scenario.characters[0].start);
         world.spawn(&model, &state.unwrap());
         let hand = &model.hands[0];
         let [x, y] = world.sense(0).kinematics.point(hand.link, hand.tip);
@@ -238,9 +238,9 @@ fn the_mind_closes_the_hands() {
              grip: 100, position: ({}, {y}))",
             x + 0.135
         );
-        scenario.props = vec![aplomb_framework::file::options().from_str(&ball).unwrap()];
+        scenario.props = vec![aplomb_framework::input::options().from_str(&ball).unwrap()];
         let cast = vec![(model, mind)];
-        let mut run = aplomb_framework::simulation::Simulation::with_cast(&scenario, cast).unwrap();
+        let mut run = aplomb_framework::run::Simulation::with_cast(&scenario, cast).unwrap();
         run.run(0.01);
         let sensed = run.sensors(0).props[0].held;
         assert_eq!(sensed, run.world().holds(0, 0));

@@ -1,6 +1,6 @@
 //! Recordings, and runs again.
 
-use aplomb_framework::trajectory::Trajectory;
+use aplomb_framework::run::Trajectory;
 
 use super::{SCENARIO, simulation};
 

@@ -1,9 +1,8 @@
 //! Repertoires and the controllers in them.
 
-use aplomb_framework::file::Source;
-use aplomb_framework::model::Model;
-use aplomb_framework::registry::Registry;
-use aplomb_framework::repertoire;
+use aplomb_framework::character::Model;
+use aplomb_framework::control::{Registry, repertoire};
+use aplomb_framework::input::Source;
 
 use super::common::registry;
 use super::{REPERTOIRE, changed, check_refusal, line_of, refusal_of_repertoire};
@@ -152,7 +151,7 @@ fn files_of_a_repertoire_are_looked_for_beside_it_and_among_the_shipped() {
              Here((kind: \"puppet\", contract: (name: \"rest\", weight: 1, precondition: Always)))])"
         );
         repertoire::build(&Source::new("p.ron", text), folder, &registry, &model)
-            .map(|mind| mind.arbitrate(&aplomb_framework::sensors::Sensors::new(&model, 9.81)))
+            .map(|mind| mind.arbitrate(&aplomb_framework::sensing::Sensors::new(&model, 9.81)))
             .map_err(|e| e.to_string())
     };
     assert_eq!(build("skills/wave.ron", None), Ok(0));

@@ -1,9 +1,7 @@
 //! Contacts: feet that carry, characters and props that meet.
 
-use aplomb_framework::model::Shape;
-use aplomb_framework::sensors::{Posture, Sensors};
-use aplomb_framework::simulation::put_on_ground;
-use aplomb_framework::state::State;
+use aplomb_framework::character::{Shape, State, put_on_ground};
+use aplomb_framework::sensing::{Posture, Sensors};
 use aplomb_framework::world::{Prop, Settings, World};
 
 use super::{G, ball, humanoid, lifted, limp, momentum, run, space, stiff};

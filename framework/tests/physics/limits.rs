@@ -1,6 +1,6 @@
 //! Limits: what muscles can give, where joints end.
 
-use aplomb_framework::sensors::Sensors;
+use aplomb_framework::sensing::Sensors;
 use aplomb_framework::world::{Settings, World};
 
 use super::{humanoid, lifted, run, space, stiff};

@@ -11,9 +11,8 @@ mod props;
 
 use std::sync::Arc;
 
-use aplomb_framework::model::{Model, Shape};
-use aplomb_framework::sensors::Sensors;
-use aplomb_framework::state::State;
+use aplomb_framework::character::{Model, Shape, State};
+use aplomb_framework::sensing::Sensors;
 use aplomb_framework::world::{Prop, Settings, World};
 
 const G: f64 = 9.81;

@@ -2,12 +2,10 @@
 
 use std::sync::Arc;
 
-use aplomb_framework::body::Body;
-use aplomb_framework::model::Model;
+use aplomb_framework::character::{Model, State};
 use aplomb_framework::rapier2d::prelude::*;
-use aplomb_framework::sensors::{Posture, Sensors};
-use aplomb_framework::state::State;
-use aplomb_framework::world::{Settings, World, integration_parameters};
+use aplomb_framework::sensing::{Posture, Sensors};
+use aplomb_framework::world::{Body, Settings, World, integration_parameters};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

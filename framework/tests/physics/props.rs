@@ -2,9 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use aplomb_framework::model::Shape;
-use aplomb_framework::sensors::{Posture, Sensors};
-use aplomb_framework::state::State;
+use aplomb_framework::character::{Shape, State};
+use aplomb_framework::sensing::{Posture, Sensors};
 use aplomb_framework::world::{Hinge, Prop, Settings, World};
 
 use super::{G, ball, humanoid, lifted, limp, momentum, run, space, stiff};

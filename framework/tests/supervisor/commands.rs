@@ -1,9 +1,7 @@
 //! Commands, and supervisors within supervisors.
 
-use aplomb_framework::condition::Condition;
-use aplomb_framework::controller::Controller;
-use aplomb_framework::sensors::Sensors;
-use aplomb_framework::supervisor::{Decision, Supervisor};
+use aplomb_framework::control::{Condition, Controller, Decision, Supervisor};
+use aplomb_framework::sensing::Sensors;
 
 use super::common::Puppet;
 use super::{DT, fallback, sensors, slower_than, supervisor, switches};
@@ -163,7 +161,7 @@ fn a_refused_command_is_not_carried_out_later() {
 /// A controller behind a pre-condition of its own.
 #[derive(Debug, Clone)]
 struct Gated {
-    contract: aplomb_framework::contract::Contract,
+    contract: aplomb_framework::control::Contract,
     inner: Supervisor,
 }
 
@@ -176,7 +174,7 @@ impl Gated {
 }
 
 impl Controller for Gated {
-    fn contract(&self) -> &aplomb_framework::contract::Contract {
+    fn contract(&self) -> &aplomb_framework::control::Contract {
         &self.contract
     }
     fn enter(&mut self, now: &Sensors) {
@@ -190,7 +188,7 @@ impl Controller for Gated {
     }
     fn obey(
         &mut self,
-        command: &aplomb_framework::command::Command,
+        command: &aplomb_framework::control::Command,
     ) -> aplomb_framework::Result<bool> {
         self.inner.obey(command)
     }

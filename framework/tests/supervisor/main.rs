@@ -8,11 +8,9 @@ mod commands;
 mod pools;
 mod turns;
 
-use aplomb_framework::condition::Condition;
-use aplomb_framework::controller::Controller;
-use aplomb_framework::model::Model;
-use aplomb_framework::sensors::Sensors;
-use aplomb_framework::supervisor::{Decision, Supervisor};
+use aplomb_framework::character::Model;
+use aplomb_framework::control::{Condition, Controller, Decision, Supervisor};
+use aplomb_framework::sensing::Sensors;
 use common::Puppet;
 
 const DT: f64 = 1e-3;

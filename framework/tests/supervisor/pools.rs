@@ -1,12 +1,11 @@
 //! Pools: bad ones, random ones.
 
-use aplomb_framework::condition::Condition;
-use aplomb_framework::file::Source;
-use aplomb_framework::model::Model;
-use aplomb_framework::repertoire;
-use aplomb_framework::simulation::tick;
-use aplomb_framework::state::State;
-use aplomb_framework::supervisor::{DWELL, Decision, RECOVERY, Supervisor, Why};
+use aplomb_framework::character::{Model, State};
+use aplomb_framework::control::{
+    Condition, DWELL, Decision, RECOVERY, Supervisor, Why, repertoire,
+};
+use aplomb_framework::input::Source;
+use aplomb_framework::run::tick;
 use aplomb_framework::world::{Settings, World};
 use proptest::prelude::*;
 

@@ -1,7 +1,6 @@
 //! Who has control, and for how long.
 
-use aplomb_framework::condition::Condition;
-use aplomb_framework::supervisor::{DWELL, Decision, RECOVERY, Why};
+use aplomb_framework::control::{Condition, DWELL, Decision, RECOVERY, Why};
 
 use super::common::Puppet;
 use super::{DT, fallback, sensors, slower_than, steps, supervisor, switches};

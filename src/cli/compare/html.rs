@@ -3,7 +3,7 @@
 
 use anyhow::{Context, Result};
 use aplomb::render::comparison::{Figure, figures};
-use aplomb::training::report::Report;
+use aplomb::training::preconditions::report::Report;
 
 use super::read::Entry;
 use super::table::{Table, both, name, short};

@@ -1,7 +1,7 @@
 //! The comparison as one JSON value.
 
 use anyhow::Result;
-use aplomb::training::report::{Metrics, NeighbourReport, Report, SvmReport};
+use aplomb::training::preconditions::report::{Metrics, NeighbourReport, Report, SvmReport};
 use serde::Serialize;
 
 /// Names are a contract with other people's scripts.

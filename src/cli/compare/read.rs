@@ -5,9 +5,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
-use aplomb::framework::Error;
-use aplomb::framework::file::read_bounded;
-use aplomb::training::report::{Metrics, Report};
+use aplomb::framework::input::{Error, read_bounded};
+use aplomb::training::preconditions::report::{Metrics, Report};
 
 /// How the files are called.
 const ENDING: &str = ".report.json";

@@ -2,7 +2,7 @@
 //!
 //! reports → headings and cells, whatever they are written as.
 
-use aplomb::training::report::{Metrics, Report};
+use aplomb::training::preconditions::report::{Metrics, Report};
 
 use crate::cli::statistics::wilson;
 

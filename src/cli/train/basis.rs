@@ -9,7 +9,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use anyhow::{Result, ensure};
-use aplomb::controllers::cmrt::Cmrt;
+use aplomb::controllers::kinds::cmrt::Cmrt;
 use aplomb::training::anticipation::basis::Basis;
 use aplomb::training::anticipation::search::{Found, Keep};
 use clap::Args;

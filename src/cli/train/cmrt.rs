@@ -10,13 +10,13 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
-use aplomb::framework::file::write_atomically;
+use aplomb::framework::input::write_atomically;
 use aplomb::training::anticipation::basis::Basis;
 use aplomb::training::anticipation::clip::Clip;
 use aplomb::training::anticipation::encoding::Encoding;
 use aplomb::training::anticipation::objective::Judged;
 use aplomb::training::anticipation::search::{Found, Keep, Plan, search};
-use aplomb::training::journal;
+use aplomb::training::search::journal;
 use clap::Args;
 use cpu_time::ProcessTime;
 use serde::Serialize;

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use aplomb::controllers::cmrt::Cmrt;
-use aplomb::framework::file::write_atomically;
+use aplomb::controllers::kinds::cmrt::Cmrt;
+use aplomb::framework::input::write_atomically;
+use aplomb::framework::run::Trajectory;
 use aplomb::framework::scenario::Scenario;
-use aplomb::framework::trajectory::Trajectory;
 use aplomb::render::anticipation::{Drawing, Learned, Rollout, basis, learned};
 use aplomb::render::{FilmOptions, filmstrip};
 use aplomb::training::anticipation::basis::Basis;

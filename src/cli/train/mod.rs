@@ -9,8 +9,8 @@ mod preconditions;
 use std::io::Write;
 
 use anyhow::Result;
-use aplomb::framework::model::Model;
-use aplomb::training::skill::Skill;
+use aplomb::framework::character::Model;
+use aplomb::training::exercise::skill::Skill;
 use clap::Subcommand;
 
 use super::Verdict;

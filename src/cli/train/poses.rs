@@ -9,9 +9,9 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow};
 use aplomb::training::exercise::Score;
-use aplomb::training::improve::{self, Found, Plan, Stage};
-use aplomb::training::journal;
-use aplomb::training::skill::Skill;
+use aplomb::training::exercise::skill::Skill;
+use aplomb::training::search::improve::{Found, Plan, Stage};
+use aplomb::training::search::{improve, journal};
 use clap::Args;
 use indicatif::ProgressBar;
 use serde::Serialize;

@@ -10,16 +10,17 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
-use aplomb::framework::boundary::Boundary;
-use aplomb::framework::file::{Source, write_atomically};
-use aplomb::training::learning::learn::{LearnSettings, Stage, Subject, learn};
-use aplomb::training::learning::machine::Kernel;
-use aplomb::training::report::Report;
-use aplomb::training::rollouts::boundary::boundary;
-use aplomb::training::rollouts::disturbance::{self, Disturbance};
-use aplomb::training::rollouts::rollout::Trial;
-use aplomb::training::rollouts::set::{Files, Gathered, Part, Plan, gather, header};
-use aplomb::training::skill::Skill;
+use aplomb::framework::control::Boundary;
+use aplomb::framework::input::{Source, write_atomically};
+use aplomb::training::exercise::skill::Skill;
+use aplomb::training::preconditions::boundary::boundary;
+use aplomb::training::preconditions::learning::learn::{LearnSettings, Stage, Subject, learn};
+use aplomb::training::preconditions::learning::machine::Kernel;
+use aplomb::training::preconditions::report::Report;
+use aplomb::training::preconditions::rollout::Trial;
+use aplomb::training::preconditions::set::{Files, Gathered, Part, Plan, gather, header};
+use aplomb::training::situations::disturbance;
+use aplomb::training::situations::disturbance::Disturbance;
 use clap::Args;
 use serde::Serialize;
 
@@ -316,7 +317,7 @@ fn print(out: &mut dyn Write, row: &Row) -> std::io::Result<()> {
             row.rollouts, row.rollouts_s
         )?;
     }
-    let line = |name: &str, m: &aplomb::training::report::Metrics| {
+    let line = |name: &str, m: &aplomb::training::preconditions::report::Metrics| {
         format!(
             "  {name:9} {} right, {} balanced",
             percent(m.accuracy),

@@ -3,10 +3,10 @@
 //!
 //! sensors and events of every step → [`Fall`]s, and when it stands again.
 
-use aplomb::framework::model::Model;
-use aplomb::framework::sensors::Sensors;
-use aplomb::framework::trajectory::EventKind;
-use aplomb::training::impact::Impact;
+use aplomb::framework::character::Model;
+use aplomb::framework::events::EventKind;
+use aplomb::framework::sensing::Sensors;
+use aplomb::training::exercise::Impact;
 
 use super::rising::Rising;
 
@@ -174,8 +174,8 @@ impl Watch {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use aplomb::framework::run::Simulation;
     use aplomb::framework::scenario::Scenario;
-    use aplomb::framework::simulation::Simulation;
 
     /// Steps with what touches in each.
     fn fall(forward: bool, touches: &[&[&str]]) -> Fall {

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::Result;
-use aplomb::framework::model::Model;
-use aplomb::framework::registry::Registry;
-use aplomb::framework::scenario::{Happening, Number, PUSH_DURATION, Scenario};
-use aplomb::framework::simulation::Simulation;
-use aplomb::framework::trajectory::{Event, EventKind};
-use aplomb::training::worlds::Worlds;
+use aplomb::framework::character::Model;
+use aplomb::framework::control::Registry;
+use aplomb::framework::events::{Event, EventKind};
+use aplomb::framework::run::Simulation;
+use aplomb::framework::scenario::{Number, PUSH_DURATION, Scenario, ScheduledInput};
+use aplomb::training::situations::Worlds;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -127,7 +127,7 @@ impl Plan {
         let mut scenario = self.scenario.clone();
         let push = self.draw_push(&mut rng);
         if let Some((link, impulse)) = &push {
-            scenario.events.push(Happening::Push {
+            scenario.events.push(ScheduledInput::Push {
                 at: Number::Value(PUSH_AT),
                 link: link.clone(),
                 impulse: Number::Value(*impulse),

@@ -2,8 +2,8 @@
 //!
 //! whether it stands, whether it fell, every step → the time from down to standing.
 
-use aplomb::framework::sensors::Sensors;
-use aplomb::framework::simulation::STANDING_FOR;
+use aplomb::framework::run::STANDING_FOR;
+use aplomb::framework::sensing::Sensors;
 
 /// Watches one trial. Asks what is sensed, not the run's events: a heap that comes down on its feet
 /// and rises from there has never fallen, so that the run does not note that it stood.
@@ -60,9 +60,9 @@ impl Rising {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use aplomb::framework::model::Model;
+    use aplomb::framework::character::Model;
+    use aplomb::framework::run::Simulation;
     use aplomb::framework::scenario::Scenario;
-    use aplomb::framework::simulation::Simulation;
 
     /// Standing from the first to before the second time of each pair, s; else in the air. Falls
     /// at `falls`.

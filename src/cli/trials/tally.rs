@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use aplomb::framework::trajectory::EventKind;
+use aplomb::framework::events::{EventKind, Reason, Role};
 use serde::Serialize;
 
 use super::falls::Fall;
@@ -121,21 +121,28 @@ impl Tally {
         let mut since: Option<f64> = None;
         let mut stepped = false;
         for event in &trial.events {
-            let EventKind::Switch { from, to, why, .. } = &event.kind else {
+            let EventKind::Switch {
+                from,
+                to,
+                role,
+                reason,
+                ..
+            } = &event.kind
+            else {
                 continue;
             };
             self.controllers.entry(to.clone()).or_default().activations += 1;
-            stepped |= to.contains("step");
+            stepped |= *role == Role::Step;
             let began = since.replace(event.time);
             let Some(from) = from else { continue };
             self.switches += u64::from(from != to);
-            let (succeeded, failed) = (why == "succeeded", why.starts_with("failed"));
+            let failed = matches!(reason, Reason::Failed(_));
             let former = self.controllers.entry(from.clone()).or_default();
-            former.succeeded += u64::from(succeeded);
+            former.succeeded += u64::from(*reason == Reason::Succeeded);
             former.failed += u64::from(failed);
             let lasted = began.map(|t| event.time - t);
             let short = lasted.is_some_and(|s| s < SHORT - 1e-9);
-            self.short_activations += u64::from(short && !failed && why != "command");
+            self.short_activations += u64::from(short && !failed && *reason != Reason::Command);
         }
         self.stepped += u64::from(stepped);
     }
@@ -185,16 +192,20 @@ impl Falls {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use aplomb::framework::trajectory::Event;
+    use aplomb::framework::events::{Event, Unmet};
 
-    fn trial(index: u64, switches: &[(f64, &str, &str, &str)]) -> Trial {
-        let event = |(time, from, to, why): &(f64, &str, &str, &str)| Event {
+    fn trial(index: u64, switches: &[(f64, &str, &str, Reason)]) -> Trial {
+        let event = |(time, from, to, reason): &(f64, &str, &str, Reason)| Event {
             time: *time,
             character: 0,
             kind: EventKind::Switch {
                 from: Some((*from).to_owned()).filter(|f| !f.is_empty()),
                 to: (*to).to_owned(),
-                why: (*why).to_owned(),
+                role: match *to {
+                    "side" => Role::Step,
+                    _ => Role::Other,
+                },
+                reason: reason.clone(),
                 bids: Vec::new(),
             },
         };
@@ -211,23 +222,27 @@ mod tests {
         }
     }
 
+    fn failed() -> Reason {
+        Reason::Failed(Unmet::plain("x"))
+    }
+
     #[test]
     fn switches_are_counted_for_both_controllers() {
         let mut tally = Tally::new(&["rest".to_owned()]);
         tally.take(&trial(
             0,
             &[
-                (0.0, "", "stance", "start"),
-                (1.0, "stance", "side_step", "failed: x"),
-                (1.02, "side_step", "stance", "succeeded"),
-                (1.03, "stance", "bow", "command"),
+                (0.0, "", "stance", Reason::Start),
+                (1.0, "stance", "side", failed()),
+                (1.02, "side", "stance", Reason::Succeeded),
+                (1.03, "stance", "bow", Reason::Command),
             ],
         ));
         assert_eq!((tally.switches, tally.stepped), (3, 1));
         assert_eq!(tally.short_activations, 1);
         let stance = tally.controllers["stance"];
         assert_eq!((stance.activations, stance.failed), (2, 1));
-        assert_eq!(tally.controllers["side_step"].succeeded, 1);
+        assert_eq!(tally.controllers["side"].succeeded, 1);
         assert_eq!(tally.controllers["rest"], Activations::default());
     }
 
@@ -237,14 +252,14 @@ mod tests {
         tally.take(&trial(
             0,
             &[
-                (0.0, "", "stance", "start"),
-                (0.02, "stance", "bow", "command"),
+                (0.0, "", "stance", Reason::Start),
+                (0.02, "stance", "bow", Reason::Command),
                 // Commanded again: a new activation, but no switch to another controller.
-                (0.04, "bow", "bow", "command"),
-                (0.06, "bow", "stance", "succeeded"),
-                (0.08, "stance", "fall", "failed: x"),
-                (0.13, "fall", "rest", "succeeded"),
-                (0.179, "rest", "stance", "succeeded"),
+                (0.04, "bow", "bow", Reason::Command),
+                (0.06, "bow", "stance", Reason::Succeeded),
+                (0.08, "stance", "fall", failed()),
+                (0.13, "fall", "rest", Reason::Succeeded),
+                (0.179, "rest", "stance", Reason::Succeeded),
             ],
         ));
         assert_eq!((tally.switches, tally.short_activations), (5, 2));

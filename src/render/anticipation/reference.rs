@@ -2,7 +2,7 @@
 //! motion (figure 2).
 
 use anyhow::Result;
-use aplomb_controllers::cmrt::{Cmrt, Spline};
+use aplomb_controllers::kinds::cmrt::{Cmrt, Spline};
 use svg::node::element::Group;
 
 use super::Learned;

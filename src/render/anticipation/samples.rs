@@ -1,7 +1,7 @@
 //! What one recorded rollout shows of a motion, from its beginning to its end.
 
 use anyhow::Result;
-use aplomb_framework::trajectory::{Moment, Trajectory};
+use aplomb_framework::run::{Moment, Trajectory};
 
 use super::{Learned, Rollout};
 use crate::render::drawable;

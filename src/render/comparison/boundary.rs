@@ -2,8 +2,8 @@
 //! field, its 50 % contour, test samples, and the limits that depend on no implementation.
 
 use anyhow::Result;
-use aplomb_framework::feature::Feature;
-use aplomb_training::report::{Report, Slice};
+use aplomb_framework::sensing::Feature;
+use aplomb_training::preconditions::report::{Report, Slice};
 use svg::node::element::{Group, Path};
 
 use super::Figure;

@@ -1,6 +1,6 @@
 //! Confusion matrices of the learned, the remembered and the hand-made pre-condition.
 
-use aplomb_training::report::{Metrics, Report};
+use aplomb_training::preconditions::report::{Metrics, Report};
 use svg::node::element::Group;
 
 use super::{Figure, HAND_MADE, NEIGHBOUR, SVM, share};

@@ -1,7 +1,7 @@
 //! The learned probability over two features, between and on its grid points.
 
 use anyhow::{Result, ensure};
-use aplomb_training::report::Slice;
+use aplomb_training::preconditions::report::Slice;
 
 use super::check_share;
 

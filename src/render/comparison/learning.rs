@@ -1,7 +1,7 @@
 //! Balanced accuracy against the size of the training set.
 
 use anyhow::{Result, ensure};
-use aplomb_training::report::{CurvePoint, Report};
+use aplomb_training::preconditions::report::{CurvePoint, Report};
 use svg::node::element::Group;
 
 use super::{Figure, NEIGHBOUR, SVM, check_share};

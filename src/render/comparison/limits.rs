@@ -3,7 +3,7 @@
 //!
 //! character, feature → lines in the feature's unit and in m/s.
 
-use aplomb_framework::model::Model;
+use aplomb_framework::character::Model;
 
 /// m/s², as in the rollouts.
 const GRAVITY: f64 = 9.81;

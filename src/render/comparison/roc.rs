@@ -1,7 +1,7 @@
 //! The ROC curve: what is won and lost as the threshold of the learned probability moves.
 
 use anyhow::{Result, ensure};
-use aplomb_training::report::Report;
+use aplomb_training::preconditions::report::Report;
 use svg::node::element::Group;
 
 use super::{Figure, HAND_MADE, NEIGHBOUR, SVM, check_share, operating_point};

@@ -1,4 +1,4 @@
-use aplomb_training::report::{CurvePoint, NeighbourReport, Slice, SvmReport};
+use aplomb_training::preconditions::report::{CurvePoint, NeighbourReport, Slice, SvmReport};
 
 use super::*;
 use crate::render::raster;

@@ -5,13 +5,12 @@
 
 use std::path::Path;
 
-use aplomb_controllers::cmrt::{Cmrt, MOST_KNOTS};
-use aplomb_framework::file::{Source, options, write_atomically};
-use aplomb_framework::{Error, Result};
+use aplomb_controllers::kinds::cmrt::{Cmrt, MOST_KNOTS};
+use aplomb_framework::input::{Error, Result, Source, options, write_atomically};
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-use super::encoding::ordered;
+use crate::anticipation::encoding::ordered;
 
 /// Standard deviations of a component from the middle of the unit cube to its faces.
 const SPREAD: f64 = 3.0;

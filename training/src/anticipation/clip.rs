@@ -5,19 +5,15 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use aplomb_controllers::cmrt::{Cmrt, CmrtController, CmrtSpec};
-use aplomb_framework::command::Command;
-use aplomb_framework::contract::Contract;
-use aplomb_framework::controller::Controller;
-use aplomb_framework::model::Model;
-use aplomb_framework::registry::{Registry, Spec};
-use aplomb_framework::scenario::{Happening, Scenario};
-use aplomb_framework::simulation::Simulation;
-use aplomb_framework::supervisor::Supervisor;
-use aplomb_framework::{Error, Result};
+use aplomb_controllers::kinds::cmrt::{Cmrt, CmrtController, CmrtSpec};
+use aplomb_framework::character::Model;
+use aplomb_framework::control::{Command, Contract, Controller, Registry, Spec, Supervisor};
+use aplomb_framework::input::{Error, Result};
+use aplomb_framework::run::Simulation;
+use aplomb_framework::scenario::{Scenario, ScheduledInput};
 
-use crate::skill::Skill;
-use crate::tune::{line_of, text_of};
+use crate::exercise::skill::Skill;
+use crate::search::tune::{line_of, text_of};
 
 /// What is optimised: one motion of the controller that a scenario commands.
 #[derive(Debug, Clone)]
@@ -147,7 +143,10 @@ impl Clip {
     /// The trajectory that its file has for this command, if any.
     #[must_use]
     pub fn shipped(&self) -> Option<Cmrt> {
-        aplomb_controllers::cmrt::interpolated(&self.spec.motions[self.motion].cmrts, self.value)
+        aplomb_controllers::kinds::cmrt::interpolated(
+            &self.spec.motions[self.motion].cmrts,
+            self.value,
+        )
     }
 
     /// The repertoire with the motion along another trajectory; with none, no motion has one.
@@ -205,7 +204,7 @@ impl Clip {
 /// The first command to the first character, and when, s.
 fn commanded(scenario: &Scenario) -> Result<(f64, String)> {
     for event in &scenario.events {
-        if let Happening::Command {
+        if let ScheduledInput::Command {
             at,
             text,
             character: 0,

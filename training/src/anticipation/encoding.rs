@@ -4,10 +4,10 @@
 //! point ↔ [`Cmrt`]; the middle of the cube is the flat trajectory with knots at equal distances, or the
 //! basis' mean.
 
-use aplomb_controllers::cmrt::{Cmrt, LEAST_GAP};
-use aplomb_framework::model::Model;
+use aplomb_controllers::kinds::cmrt::{Cmrt, LEAST_GAP};
+use aplomb_framework::character::Model;
 
-use super::basis::Basis;
+use crate::anticipation::basis::Basis;
 
 /// Digits after the point of knots (s) and control points (m): what is tried is what a file says.
 const DIGITS: f64 = 1e4;

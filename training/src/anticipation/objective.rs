@@ -3,18 +3,18 @@
 //!
 //! clip, trajectory → rollout → [`Evaluation`].
 
-use aplomb_controllers::cmrt::Cmrt;
-use aplomb_framework::Result;
-use aplomb_framework::model::Model;
+use aplomb_controllers::kinds::cmrt::Cmrt;
+use aplomb_framework::character::Model;
+use aplomb_framework::control::Supervisor;
+use aplomb_framework::input::Result;
+use aplomb_framework::run::Simulation;
 use aplomb_framework::scenario::Scenario;
-use aplomb_framework::simulation::Simulation;
-use aplomb_framework::supervisor::Supervisor;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::clip::Clip;
+use crate::anticipation::clip::Clip;
 
 /// Charged for a pose that is missed, a radian (root of the mean square over joints and time).
 const TRACKING: f64 = 2.0;
@@ -210,7 +210,7 @@ fn rollout(
     };
     let unmet = expected
         .iter()
-        .filter(|e| run.disappointment(std::slice::from_ref(e)).is_some())
+        .filter(|e| run.unmet(std::slice::from_ref(e)).is_some())
         .count();
     let tracking = (sums.tracking / sums.tracked.max(1) as f64).sqrt();
     // The paper's norm is over steps of 1 ms.

@@ -7,16 +7,16 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use aplomb_controllers::cmrt::Cmrt;
-use aplomb_framework::{Error, Result};
+use aplomb_controllers::kinds::cmrt::Cmrt;
+use aplomb_framework::input::{Error, Result};
 use xxhash_rust::xxh3::xxh3_64;
 
-use super::clip::Clip;
-use super::encoding::Encoding;
-use super::objective::{ENOUGH, averaged, successes};
-use crate::cma_es::{Best, Search, minimise, population};
+use crate::anticipation::clip::Clip;
+use crate::anticipation::encoding::Encoding;
+use crate::anticipation::objective::{ENOUGH, averaged, successes};
 use crate::exercise::Score;
-use crate::journal::Journal;
+use crate::search::cma_es::{Best, Search, minimise, population};
+use crate::search::journal::Journal;
 
 /// Initial standard deviation in the unit cube.
 const SIGMA: f64 = 0.2;

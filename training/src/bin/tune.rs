@@ -4,14 +4,14 @@
 
 use std::path::Path;
 
-use aplomb_controllers::balance::BalanceSpec;
-use aplomb_controllers::stance::StanceSpec;
-use aplomb_framework::Result;
-use aplomb_framework::file::{Source, write_atomically};
-use aplomb_framework::registry::ControllerFile;
-use aplomb_training::cma_es::Search;
-use aplomb_training::standing;
-use aplomb_training::tune::{self, Tunable};
+use aplomb_controllers::kinds::balance::BalanceSpec;
+use aplomb_controllers::kinds::stance::StanceSpec;
+use aplomb_framework::control::ControllerFile;
+use aplomb_framework::input::{Result, Source, write_atomically};
+use aplomb_training::exercise::standing;
+use aplomb_training::search::cma_es::Search;
+use aplomb_training::search::tune;
+use aplomb_training::search::tune::Tunable;
 
 const USAGE: &str = "tune FILE OUT SEED EVALUATIONS SIGMA LOW HIGH LOW HIGH";
 

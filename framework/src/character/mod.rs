@@ -1,0 +1,16 @@
+//! A character as data, and its motion: links, joints, muscles; state, kinematics, dynamics.
+//!
+//! character file → [`Model`]; [`State`] → [`Kinematics`], [`Dynamics`] → sensing, world, controllers.
+
+mod dynamics;
+mod kinematics;
+mod model;
+mod shape;
+mod state;
+
+pub use dynamics::Dynamics;
+pub(crate) use kinematics::turned;
+pub use kinematics::{Kinematics, LinkMotion, put_on_ground};
+pub use model::{Foot, Hand, Joint, Link, MOST_LINKS, Model};
+pub use shape::{Point, Shape};
+pub use state::{State, wrapped};

@@ -1,0 +1,339 @@
+//! Reads a character file, and checks every bound that a character must keep.
+//!
+//! RON → `schema`, of which `tree` checks that it is a tree → [`Model`].
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::character::kinematics::Kinematics;
+use crate::character::model::definition::{Foot, Hand, Joint, Link, MOST_LINKS, Model};
+use crate::character::model::schema::{CharacterFile, JointEntry, LinkEntry};
+use crate::character::model::tree::{name, quoted};
+use crate::character::model::{digest, tree};
+use crate::character::shape::{Point, Shape};
+use crate::character::state::State;
+use crate::input::{Error, Result, Source};
+
+const POSITIVE: &str = "a finite number above 0 and at most 1e6";
+const LENGTH: &str = "finite, at most 100 m either way";
+
+impl Model {
+    /// The built-in characters by name.
+    pub const BUILT_IN: [(&'static str, &'static str); 3] = [
+        ("humanoid", include_str!("../../../characters/humanoid.ron")),
+        ("lion", include_str!("../../../characters/lion.ron")),
+        ("sumo", include_str!("../../../characters/sumo.ron")),
+    ];
+
+    /// A built-in character by name, or a character file by path.
+    ///
+    /// # Errors
+    /// An unreadable or invalid file, named with line and field.
+    ///
+    /// ```
+    /// # use aplomb_framework::character::Model;
+    /// let humanoid = Model::load("humanoid")?;
+    /// assert_eq!(humanoid.dof(), 15);
+    /// assert!((humanoid.total_mass() - 80.0).abs() < 1e-9);
+    /// # Ok::<(), aplomb_framework::Error>(())
+    /// ```
+    pub fn load(name_or_path: &str) -> Result<Arc<Self>> {
+        let source = match Self::BUILT_IN.iter().find(|(n, _)| *n == name_or_path) {
+            Some((name, text)) => Source::new(format!("built-in {name}"), *text),
+            None => match Source::read(Path::new(name_or_path)) {
+                Err(Error::Read { reason, .. }) if !Path::new(name_or_path).exists() => {
+                    let known = Self::BUILT_IN.iter().map(|(n, _)| *n);
+                    return Err(Error::Read {
+                        path: name_or_path.into(),
+                        reason: format!(
+                            "{reason}; characters known by name: {}",
+                            known.collect::<Vec<_>>().join(", ")
+                        ),
+                    });
+                }
+                other => other?,
+            },
+        };
+        Self::parse(&source).map(Arc::new)
+    }
+
+    /// Reads a character from text.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`] or [`Error::Invalid`] with the line, the field and what is accepted.
+    pub fn parse(source: &Source) -> Result<Self> {
+        crate::character::model::file::read(source)
+    }
+
+    /// Builds the model from its validated parts and derives what depends on them.
+    fn assemble(
+        source: String,
+        name: String,
+        links: Vec<Link>,
+        feet: Vec<Foot>,
+        hands: Vec<Hand>,
+        trunk: usize,
+        head: usize,
+    ) -> Self {
+        let total_mass = links.iter().map(|l| l.mass).sum();
+        let mut model = Self {
+            source,
+            digest: digest::digest(&links, &feet, &hands, trunk, head),
+            name,
+            links,
+            feet,
+            hands,
+            trunk,
+            head,
+            total_mass,
+            standing_height: 0.0,
+            standing_com: [0.0, 0.0],
+        };
+        let mut kinematics = Kinematics::new(&model);
+        let state = State {
+            q: vec![0.0; model.dof()],
+            qdot: vec![0.0; model.dof()],
+        };
+        kinematics.update(&model, &state);
+        let lowest = model
+            .feet
+            .iter()
+            .flat_map(|f| [(f.link, f.heel), (f.link, f.toe)])
+            .map(|(link, p)| kinematics.point(link, p)[1])
+            .fold(f64::INFINITY, f64::min);
+        model.standing_height = -lowest;
+        let com = kinematics.com;
+        model.standing_com = [com[0], com[1] - lowest];
+        model
+    }
+}
+
+/// Parses and validates a character.
+pub(crate) fn read(source: &Source) -> Result<Model> {
+    let file: CharacterFile = source.parse()?;
+    name(source, "name", &file.name)?;
+    let count = file.links.len();
+    if count == 0 || count > MOST_LINKS {
+        return Err(source.invalid(
+            "links",
+            "links",
+            format!("a list of {count}"),
+            format!("1 to {MOST_LINKS} links"),
+        ));
+    }
+    tree::check(source, &file.links)?;
+    let names: Vec<&str> = file.links.iter().map(|l| l.name.as_str()).collect();
+    let find = |field: &str, name: &str| {
+        names.iter().position(|n| *n == name).ok_or_else(|| {
+            let place = source.place(field);
+            Error::unknown("link", name, names.iter().copied()).at(&format!("{place}: {field}"))
+        })
+    };
+    let trunk = find("trunk", &file.trunk)?;
+    let head = find("head", &file.head)?;
+    if file.feet.is_empty() {
+        return Err(source.invalid(
+            "feet",
+            "feet",
+            "missing",
+            "at least one (link: …, heel: (x, y), toe: (x, y))",
+        ));
+    }
+    let mut feet = Vec::with_capacity(file.feet.len());
+    for (i, f) in file.feet.iter().enumerate() {
+        point(source, &format!("feet[{i}].heel"), &f.link, f.heel)?;
+        point(source, &format!("feet[{i}].toe"), &f.link, f.toe)?;
+        if f.toe[0] - f.heel[0] < 1e-3 {
+            return Err(source.invalid(
+                "feet",
+                format!("feet[{i}].toe"),
+                format!("{} m ahead of the heel", f.toe[0] - f.heel[0]),
+                "a toe at least 1 mm ahead of the heel",
+            ));
+        }
+        feet.push(Foot {
+            link: find("feet", &f.link)?,
+            heel: f.heel,
+            toe: f.toe,
+        });
+    }
+    let mut hands = Vec::with_capacity(file.hands.len());
+    for (i, h) in file.hands.iter().enumerate() {
+        point(source, &format!("hands[{i}].tip"), &h.link, h.tip)?;
+        hands.push(Hand {
+            link: find("hands", &h.link)?,
+            tip: h.tip,
+        });
+    }
+    let mut links = Vec::with_capacity(count);
+    for entry in &file.links {
+        links.push(link(source, entry, &names)?);
+    }
+    Ok(Model::assemble(
+        source.text.clone(),
+        file.name,
+        links,
+        feet,
+        hands,
+        trunk,
+        head,
+    ))
+}
+
+fn link(source: &Source, entry: &LinkEntry, names: &[&str]) -> Result<Link> {
+    let who = entry.name.as_str();
+    let field = |f: &str| format!("{who}.{f}");
+    positive(source, &field("mass"), who, entry.mass)?;
+    positive(source, &field("inertia"), who, entry.inertia)?;
+    point(source, &field("com"), who, entry.com)?;
+    match entry.shape {
+        Shape::Capsule { radius, from, to } => {
+            positive(source, &field("shape.radius"), who, radius)?;
+            point(source, &field("shape.from"), who, from)?;
+            point(source, &field("shape.to"), who, to)?;
+        }
+        Shape::Box { half, centre } => {
+            positive(source, &field("shape.half.0"), who, half[0])?;
+            positive(source, &field("shape.half.1"), who, half[1])?;
+            point(source, &field("shape.centre"), who, centre)?;
+        }
+    }
+    let joint = entry
+        .joint
+        .as_ref()
+        .map(|j| joint(source, j, names))
+        .transpose()?;
+    Ok(Link {
+        name: entry.name.clone(),
+        joint,
+        mass: entry.mass,
+        com: entry.com,
+        inertia: entry.inertia,
+        shape: entry.shape,
+    })
+}
+
+fn joint(source: &Source, entry: &JointEntry, names: &[&str]) -> Result<Joint> {
+    let who = entry.name.as_str();
+    let field = |f: &str| format!("{who}.{f}");
+    point(source, &field("anchor"), who, entry.anchor)?;
+    let [low, high] = entry.range;
+    let full = std::f64::consts::TAU;
+    if !(low.is_finite()
+        && high.is_finite()
+        && low < high
+        && low.abs() <= full
+        && high.abs() <= full)
+    {
+        return Err(source.invalid(
+            &quoted(who),
+            field("range"),
+            format!("({low}, {high})"),
+            "(low, high) with low < high, both within ±2π",
+        ));
+    }
+    positive(source, &field("torque"), who, entry.torque)?;
+    positive(source, &field("kp"), who, entry.kp)?;
+    positive(source, &field("kd"), who, entry.kd)?;
+    Ok(Joint {
+        name: entry.name.clone(),
+        parent: names.iter().position(|n| *n == entry.parent).unwrap_or(0),
+        anchor: entry.anchor,
+        range: entry.range,
+        torque: entry.torque,
+        kp: entry.kp,
+        kd: entry.kd,
+    })
+}
+
+fn positive(source: &Source, field: &str, who: &str, value: f64) -> Result<()> {
+    if value.is_finite() && value > 0.0 && value <= 1e6 {
+        Ok(())
+    } else {
+        Err(source.invalid(&quoted(who), field, value, POSITIVE))
+    }
+}
+
+fn point(source: &Source, field: &str, who: &str, p: Point) -> Result<()> {
+    if p.iter().all(|c| c.is_finite() && c.abs() <= 100.0) {
+        Ok(())
+    } else {
+        Err(source.invalid(&quoted(who), field, format!("({}, {})", p[0], p[1]), LENGTH))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HUMANOID: &str = include_str!("../../../characters/humanoid.ron");
+
+    fn refusal(text: &str) -> String {
+        read(&Source::new("test.ron", text))
+            .unwrap_err()
+            .to_string()
+    }
+
+    fn changed(from: &str, to: &str) -> String {
+        assert!(HUMANOID.contains(from), "{from}");
+        refusal(&HUMANOID.replacen(from, to, 1))
+    }
+
+    #[test]
+    fn the_humanoid_is_read_with_its_numbers() {
+        let m = read(&Source::new("humanoid", HUMANOID)).unwrap();
+        assert_eq!((m.links.len(), m.dof(), m.feet.len()), (13, 15, 2));
+        assert!((m.total_mass() - 80.0).abs() < 1e-9);
+        assert!((m.standing_height() - 0.917_146_456_370_34).abs() < 1e-12);
+    }
+
+    #[test]
+    fn infinities_and_not_a_number_are_refused_with_field_and_line() {
+        let text = changed("mass: 8.936", "mass: NaN");
+        assert!(
+            text.starts_with("test.ron:") && text.contains("pelvis.mass is NaN"),
+            "{text}"
+        );
+        assert!(
+            changed("inertia: 0.4535531586997044", "inertia: inf").contains("torso.inertia is inf")
+        );
+        assert!(changed("mass: 8.936", "mass: -1.0").contains("above 0"));
+    }
+
+    #[test]
+    fn broken_trees_are_refused() {
+        let cycle = changed(
+            "name: \"waist\", parent: \"pelvis\"",
+            "name: \"waist\", parent: \"head\"",
+        );
+        assert!(cycle.contains("a cycle (torso → head → torso)"), "{cycle}");
+        let orphan = changed(
+            "name: \"neck\", parent: \"torso\"",
+            "name: \"neck\", parent: \"torsso\"",
+        );
+        assert!(
+            orphan.contains("'torsso'") && orphan.contains("did you mean 'torso'"),
+            "{orphan}"
+        );
+        assert!(changed("name: \"neck\"", "name: \"waist\"").contains("a second time"));
+    }
+
+    #[test]
+    fn missing_feet_and_unordered_limits_are_refused() {
+        let start = HUMANOID.find("    feet: [").unwrap();
+        let end = start + HUMANOID[start..].find("    ],").unwrap() + 7;
+        let text = refusal(&format!("{}{}", &HUMANOID[..start], &HUMANOID[end..]));
+        assert!(text.contains("feet is missing"), "{text}");
+        let text = changed(
+            "range: (-1.0471975511965976, 1.0471975511965976)",
+            "range: (1.0, -1.0)",
+        );
+        assert!(text.contains("neck.range is (1, -1)"), "{text}");
+    }
+
+    #[test]
+    fn unknown_fields_say_where_they_stand() {
+        let text = changed("trunk:", "trnk:");
+        assert!(text.starts_with("test.ron:8:"), "{text}");
+    }
+}

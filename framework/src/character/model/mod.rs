@@ -1,0 +1,11 @@
+//! The character itself: what its file says, checked, and what follows from it.
+//!
+//! RON → `schema` → `tree`, `file` (bounds) → [`Model`], with its `digest`.
+
+mod definition;
+mod digest;
+mod file;
+mod schema;
+mod tree;
+
+pub use definition::{Foot, Hand, Joint, Link, MOST_LINKS, Model};

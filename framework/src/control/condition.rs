@@ -1,0 +1,292 @@
+//! Regions of situations, as data: they can be stored, printed, evaluated and explained.
+//!
+//! In the 2001 paper's terms these are the relations on state, environment, contacts and balance
+//! of which pre-conditions, post-conditions and expected performance are made.
+
+use std::fmt;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::character::Model;
+use crate::control::boundary::Boundary;
+use crate::events::{Found, Unmet};
+use crate::input::{Error, Result};
+use crate::sensing::{Feature, Posture, Sensors};
+
+/// A region of situations. Bounds are inclusive; what is not a number lies in no bounds.
+///
+/// ```
+/// # use aplomb_framework::{condition::Condition, model::Model, sensors::Sensors};
+/// let text = r#"All([Posture([standing]), Within(feature: "com_height", min: 0.9)])"#;
+/// let condition: Condition = ron::from_str(text)?;
+/// let now = Sensors::new(&Model::load("humanoid")?, 9.81); // in the air
+/// let refusal = condition.first_failure(&now).unwrap();
+/// assert_eq!(refusal.to_string(), "posture standing (is airborne)");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub enum Condition {
+    /// Holds everywhere.
+    Always,
+    /// Holds nowhere.
+    Never,
+    /// A feature lies between two bounds.
+    Within {
+        /// The feature.
+        feature: Feature,
+        /// Lowest value; no bound if left out.
+        #[serde(default = "lowest", skip_serializing_if = "is_infinite")]
+        min: f64,
+        /// Highest value; no bound if left out.
+        #[serde(default = "highest", skip_serializing_if = "is_infinite")]
+        max: f64,
+    },
+    /// The posture is one of these.
+    Posture(Vec<Posture>),
+    /// All hold; an empty list always does.
+    All(Vec<Condition>),
+    /// At least one holds; an empty list never does.
+    Any(Vec<Condition>),
+    /// The other does not hold.
+    Not(Box<Condition>),
+    /// A learned boundary says that success is expected. Where a feature of it is not a number it
+    /// does not.
+    Svm(Arc<Boundary>),
+}
+
+fn lowest() -> f64 {
+    f64::NEG_INFINITY
+}
+
+fn highest() -> f64 {
+    f64::INFINITY
+}
+
+pub(crate) fn is_infinite(bound: &f64) -> bool {
+    bound.is_infinite()
+}
+
+/// The clause that refused, and the value that it refused.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Failure<'a> {
+    /// The first clause that does not hold.
+    pub clause: &'a Condition,
+    /// The value of its feature, if it is about one; the score of a learned boundary.
+    pub value: Option<f64>,
+    /// The posture at the time.
+    pub posture: Posture,
+}
+
+impl Condition {
+    /// The first clause that does not hold now; none if the condition holds. Of alternatives
+    /// none of which holds, the last one's refusal is told.
+    #[must_use]
+    pub fn first_failure<'a>(&'a self, now: &Sensors) -> Option<Failure<'a>> {
+        let refused = |value| {
+            Some(Failure {
+                clause: self,
+                value,
+                posture: now.posture,
+            })
+        };
+        match self {
+            Self::Always => None,
+            Self::Never => refused(None),
+            Self::Within { feature, min, max } => {
+                let v = feature.value(now);
+                if v >= *min && v <= *max {
+                    None
+                } else {
+                    refused(Some(v))
+                }
+            }
+            Self::Posture(any) if any.contains(&now.posture) => None,
+            Self::Posture(_) => refused(None),
+            Self::All(all) => all.iter().find_map(|c| c.first_failure(now)),
+            Self::Any(any) => {
+                let mut last = refused(None);
+                for c in any {
+                    last = Some(c.first_failure(now)?);
+                }
+                last
+            }
+            Self::Not(c) if c.holds(now) => refused(None),
+            Self::Not(_) => None,
+            Self::Svm(boundary) => {
+                let score = boundary.score(now);
+                if score >= 0.0 {
+                    None
+                } else {
+                    refused(Some(score))
+                }
+            }
+        }
+    }
+
+    /// Whether the condition holds now.
+    #[must_use]
+    pub fn holds(&self, now: &Sensors) -> bool {
+        self.first_failure(now).is_none()
+    }
+
+    /// Whether it is the one that never holds.
+    #[must_use]
+    pub fn is_never(&self) -> bool {
+        *self == Self::Never
+    }
+
+    /// Whether it is the one that always holds.
+    #[must_use]
+    pub fn is_always(&self) -> bool {
+        *self == Self::Always
+    }
+
+    /// Whether any of its clauses was learned.
+    #[must_use]
+    pub fn is_learned(&self) -> bool {
+        match self {
+            Self::Svm(_) => true,
+            Self::All(list) | Self::Any(list) => list.iter().any(Self::is_learned),
+            Self::Not(c) => c.is_learned(),
+            Self::Always | Self::Never | Self::Within { .. } | Self::Posture(_) => false,
+        }
+    }
+
+    /// How likely success is where the condition holds: the product of the calibrated
+    /// probabilities of the learned boundaries that all have to hold; 1 if there are none.
+    /// Alternatives and negations say nothing about it.
+    #[must_use]
+    pub fn probability(&self, now: &Sensors) -> f64 {
+        match self {
+            Self::Svm(boundary) => boundary.probability(boundary.score(now)),
+            Self::All(all) => all.iter().map(|c| c.probability(now)).product(),
+            _ => 1.0,
+        }
+    }
+
+    /// Visits every feature that it names outright, until a visit fails.
+    ///
+    /// # Errors
+    /// The visit's.
+    pub(crate) fn each_feature(
+        &self,
+        visit: &mut impl FnMut(&Feature) -> Result<()>,
+    ) -> Result<()> {
+        match self {
+            Self::Within { feature, .. } => visit(feature),
+            Self::All(list) | Self::Any(list) => {
+                list.iter().try_for_each(|c| c.each_feature(visit))
+            }
+            Self::Not(c) => c.each_feature(visit),
+            Self::Always | Self::Never | Self::Posture(_) | Self::Svm(_) => Ok(()),
+        }
+    }
+
+    /// Looks up the joints that features name, and checks the bounds.
+    ///
+    /// # Errors
+    /// An unknown joint; bounds that are not numbers or out of order; a learned boundary that is
+    /// invalid or of another character.
+    pub fn resolve(&mut self, model: &Model) -> Result<()> {
+        match self {
+            Self::Within { feature, min, max } => {
+                feature.resolve(model)?;
+                if min.is_nan() || max.is_nan() || min > max {
+                    return Err(Error::invalid(
+                        format!("Within(feature: \"{feature}\")"),
+                        "min, max",
+                        format!("{min}, {max}"),
+                        "two numbers with min ≤ max",
+                    ));
+                }
+            }
+            Self::All(list) | Self::Any(list) => {
+                for c in list {
+                    c.resolve(model)?;
+                }
+            }
+            Self::Not(c) => c.resolve(model)?,
+            Self::Svm(boundary) => Arc::make_mut(boundary).resolve(model)?,
+            Self::Always | Self::Never | Self::Posture(_) => {}
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Condition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let list = |f: &mut fmt::Formatter<'_>, all: &[Self], word: &str| {
+            f.write_str("(")?;
+            for (i, c) in all.iter().enumerate() {
+                if i > 0 {
+                    write!(f, " {word} ")?;
+                }
+                write!(f, "{c}")?;
+            }
+            f.write_str(")")
+        };
+        match self {
+            Self::Always => f.write_str("always"),
+            Self::Never => f.write_str("never"),
+            Self::Within { feature, min, max } => match (min.is_finite(), max.is_finite()) {
+                (true, true) => write!(f, "{feature} in {min}..{max}"),
+                (true, false) => write!(f, "{feature} ≥ {min}"),
+                (false, true) => write!(f, "{feature} ≤ {max}"),
+                (false, false) => write!(f, "{feature} is a number"),
+            },
+            Self::Posture(any) => {
+                f.write_str("posture ")?;
+                for (i, p) in any.iter().enumerate() {
+                    write!(f, "{}{}", if i > 0 { "|" } else { "" }, p.name())?;
+                }
+                Ok(())
+            }
+            Self::All(all) => list(f, all, "and"),
+            Self::Any(any) => list(f, any, "or"),
+            Self::Not(c) => write!(f, "not {c}"),
+            Self::Svm(boundary) => write!(f, "{boundary}"),
+        }
+    }
+}
+
+impl Failure<'_> {
+    /// The clause in words, and what was found instead.
+    #[must_use]
+    pub fn unmet(&self) -> Unmet {
+        let found = match (self.clause, self.value) {
+            (Condition::Within { feature, .. }, Some(v)) if v.is_nan() => {
+                Found::Absent(feature.absence())
+            }
+            (Condition::Svm(boundary), Some(v)) if v.is_nan() => Found::Absent(boundary.absence()),
+            (_, Some(v)) => Found::Value(v),
+            (Condition::Posture(_), None) => Found::State(self.posture.name().to_owned()),
+            _ => Found::Nothing,
+        };
+        Unmet {
+            clause: self.clause.to_string(),
+            found,
+        }
+    }
+
+    /// The same, said of an expected performance.
+    #[must_use]
+    pub fn expected(&self) -> Unmet {
+        let Unmet { clause, found } = self.unmet();
+        Unmet {
+            clause: format!("expected {clause}"),
+            found,
+        }
+    }
+}
+
+impl fmt::Display for Failure<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.unmet().fmt(f)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,171 @@
+//! Controllers as files: RON → [`Spec`] → [`Controller`]. A registry knows the kinds of controllers
+//! and the shipped files; it is a value that is passed, never a global.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use ron::value::RawValue;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use crate::character::Model;
+use crate::control::contract::Contract;
+use crate::control::controller::Controller;
+use crate::input::{Error, Result, Source, options};
+
+/// The parameters of one kind of controller, as in the `spec` field of a file.
+pub trait Spec: DeserializeOwned {
+    /// The kind's name, as in the `kind` field: `balance`, `pose`.
+    const KIND: &'static str;
+
+    /// Builds the controller for a character. This is where joint names are looked up and numbers
+    /// are checked: control itself cannot fail.
+    ///
+    /// # Errors
+    /// Whatever the spec names and the model lacks, and numbers out of bounds.
+    fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>>;
+}
+
+/// A controller file.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ControllerFile {
+    /// A registered kind.
+    pub kind: String,
+    /// What the controller promises.
+    pub contract: Contract,
+    /// The kind's parameters.
+    #[serde(default = "empty")]
+    pub spec: Box<RawValue>,
+}
+
+impl ControllerFile {
+    /// Its parameters; `origin` is what errors call it.
+    ///
+    /// # Errors
+    /// Another kind of controller, or bad syntax.
+    pub fn parameters<S: Spec>(&self, origin: &str) -> Result<S> {
+        if self.kind != S::KIND {
+            return Err(Error::unknown("kind", &self.kind, [S::KIND]));
+        }
+        Source::new(origin, self.spec.get_ron()).parse()
+    }
+}
+
+fn empty() -> Box<RawValue> {
+    RawValue::from_ron("()")
+        .map(ToOwned::to_owned)
+        .unwrap_or_else(|_| unreachable!("() is RON"))
+}
+
+type Build = fn(&Source, &RawValue, Contract, &Arc<Model>) -> Result<Box<dyn Controller>>;
+
+/// The kinds of controllers and the shipped files that can be referred to by name.
+#[derive(Debug, Clone, Default)]
+pub struct Registry {
+    kinds: BTreeMap<&'static str, Build>,
+    files: BTreeMap<&'static str, &'static str>,
+}
+
+impl Registry {
+    /// Knows nothing.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a kind of controller.
+    #[must_use]
+    pub fn with<S: Spec>(mut self) -> Self {
+        self.kinds.insert(S::KIND, build::<S>);
+        self
+    }
+
+    /// Adds a shipped file under its name, for example `skills/bow.ron`.
+    #[must_use]
+    pub fn with_file(mut self, name: &'static str, text: &'static str) -> Self {
+        self.files.insert(name, text);
+        self
+    }
+
+    /// A shipped file.
+    #[must_use]
+    pub fn file(&self, name: &str) -> Option<Source> {
+        let text = self.files.get(name)?;
+        Some(Source::new(format!("built-in {name}"), *text))
+    }
+
+    /// Names of the shipped files.
+    pub fn files(&self) -> impl Iterator<Item = &'static str> + '_ {
+        self.files.keys().copied()
+    }
+
+    /// Builds a controller from a parsed file. `source` is the text that the file stands in.
+    ///
+    /// # Errors
+    /// An unknown kind, with the nearest; a spec or contract that does not fit the character.
+    pub fn build(
+        &self,
+        source: &Source,
+        file: &ControllerFile,
+        model: &Arc<Model>,
+    ) -> Result<Box<dyn Controller>> {
+        let quoted = format!("\"{}\"", file.contract.name);
+        let named = format!("name: {quoted}");
+        let needle = if source.text.contains(&named) {
+            named
+        } else {
+            quoted
+        };
+        let place = source.place(&needle);
+        let build = self.kinds.get(file.kind.as_str()).ok_or_else(|| {
+            Error::unknown("controller kind", &file.kind, self.kinds.keys().copied()).at(&place)
+        })?;
+        let mut contract = file.contract.clone();
+        let at = |e: Error| within(e, &place, &file.contract.name);
+        contract.resolve(model).map_err(at)?;
+        build(source, &file.spec, contract, model).map_err(at)
+    }
+}
+
+fn build<S: Spec>(
+    source: &Source,
+    raw: &RawValue,
+    contract: Contract,
+    model: &Arc<Model>,
+) -> Result<Box<dyn Controller>> {
+    let text = raw.get_ron();
+    let spec: S = options().from_str(text).map_err(|e| {
+        let before = &source.text[..spec_start(source, text, &contract.name)];
+        let line = before.matches('\n').count();
+        let column = before.len() - before.rfind('\n').map_or(0, |i| i + 1);
+        source.syntax(&e, (line, column))
+    })?;
+    spec.build(contract, model)
+}
+
+/// The same refusal, said to be of a controller in a file.
+fn within(mut error: Error, place: &str, controller: &str) -> Error {
+    let Error::Invalid { place: inner, .. } = &mut error else {
+        return error.at(&format!("{place}: {controller}"));
+    };
+    *inner = if inner.starts_with(controller) {
+        format!("{place}: {inner}")
+    } else {
+        format!("{place}: {controller}: {inner}")
+    };
+    error
+}
+
+/// Where the spec with this text begins: behind its controller's name if one does, else anywhere.
+fn spec_start(source: &Source, spec: &str, controller: &str) -> usize {
+    let name = source.text.find(&format!("\"{controller}\"")).unwrap_or(0);
+    let all = || source.text.match_indices(spec).map(|(at, _)| at);
+    let is_spec = |at: &usize| source.text[..*at].trim_end().ends_with("spec:");
+    all()
+        .filter(is_spec)
+        .find(|at| *at > name)
+        .or_else(|| all().find(is_spec))
+        .or_else(|| all().next())
+        .unwrap_or(0)
+}

@@ -1,0 +1,280 @@
+//! Polls a pool of controllers, arbitrates by suitability, delegates, and explains itself.
+//! (Faloutsos, van de Panne, Terzopoulos 2001, "Controller composition framework" and its figure of one step.)
+//!
+//! sensors → poll pre-conditions → the active controller → torques. A supervisor is itself a
+//! controller, so pools nest.
+//!
+//! Rules:
+//! - The active controller stays until it succeeds, fails, or a command calls another.
+//! - A controller that failed bids 0 for [`RECOVERY`] s, and one that succeeded has been active for
+//!   at least [`DWELL`] s: two controllers cannot alternate every few steps.
+//! - The incumbent of a lost or won arbitration is not entered again.
+//! - A command raises its controller above the weights, never over a failed pre-condition.
+//! - Polling has no side effect. Ties go to the earlier in the repertoire.
+//! - One controller, the fallback, accepts every state, so that something is always active.
+
+use crate::control::command::Command;
+use crate::control::contract::{Contract, Progress};
+use crate::control::controller::Controller;
+use crate::control::pool;
+use crate::control::pool::Member;
+use crate::events::{Bid, EventKind, Reason, Unmet};
+use crate::input::{Error, Result};
+use crate::sensing::Sensors;
+
+/// s for which a controller that has just failed is not chosen again.
+pub const RECOVERY: f64 = 0.25;
+/// s for which a controller is active before its success is acted on.
+pub const DWELL: f64 = 0.05;
+
+/// The active controller and its activation.
+#[derive(Debug, Clone, Copy)]
+struct Active {
+    member: usize,
+    since: f64,
+    /// Since when its post-condition has held.
+    reached: Option<f64>,
+}
+
+/// A pool of controllers under one contract.
+#[derive(Debug, Clone)]
+pub struct Supervisor {
+    contract: Contract,
+    pool: Vec<Member>,
+    fallback: usize,
+    active: Option<Active>,
+    /// Commands of this step, in order, each with the member that answers to it.
+    pending: Vec<(usize, Command)>,
+    events: Vec<(f64, EventKind)>,
+}
+
+impl Supervisor {
+    /// A pool in the order in which ties are broken. `fallback` names the controller that accepts
+    /// every state.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if the pool is empty, a name occurs twice, or the fallback is missing,
+    /// has weight 0, or does not accept every state.
+    pub fn new(name: &str, pool: Vec<Box<dyn Controller>>, fallback: &str) -> Result<Self> {
+        let place = pool::fallback(name, &pool, fallback)?;
+        Ok(Self {
+            contract: pool::contract(name, &pool),
+            pool: pool.into_iter().map(Member::new).collect(),
+            fallback: place,
+            active: None,
+            pending: Vec::new(),
+            events: Vec::new(),
+        })
+    }
+
+    /// The same pool with another controller in the place of the one with its name.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if there is none with its name; what makes a pool invalid.
+    pub fn with_replaced(&self, controller: Box<dyn Controller>) -> Result<Self> {
+        let name = &controller.contract().name;
+        let place = self
+            .pool
+            .iter()
+            .position(|m| m.controller.contract().name == *name);
+        let Some(place) = place else {
+            let known = self.controllers().map(|c| c.contract().name.as_str());
+            return Err(Error::unknown("controller", name, known));
+        };
+        let mut pool: Vec<_> = self.pool.iter().map(|m| m.controller.clone()).collect();
+        pool[place] = controller;
+        let fallback = self.name(self.fallback).to_owned();
+        Self::new(&self.contract.name, pool, &fallback)
+    }
+
+    /// The pool.
+    pub fn controllers(&self) -> impl Iterator<Item = &dyn Controller> {
+        self.pool.iter().map(|m| &*m.controller)
+    }
+
+    /// Name of the active controller; none before the first step.
+    #[must_use]
+    pub fn active(&self) -> Option<&str> {
+        self.active.map(|a| self.name(a.member))
+    }
+
+    /// Place of the active controller in the pool.
+    #[must_use]
+    pub fn active_index(&self) -> Option<usize> {
+        self.active.map(|a| a.member)
+    }
+
+    fn name(&self, member: usize) -> &str {
+        &self.pool[member].controller.contract().name
+    }
+
+    /// Parses a command string and hands it to the controller that answers to it. It takes effect
+    /// in the next step, where the controller's pre-condition decides.
+    ///
+    /// # Errors
+    /// A malformed command, or one that nobody answers to, with the nearest name.
+    pub fn command(&mut self, text: &str) -> Result<()> {
+        let command: Command = text.parse()?;
+        if self.obey(&command)? {
+            Ok(())
+        } else {
+            let known = self.contract.commands.iter().map(|a| a.name.as_str());
+            Err(Error::unknown("command", &command.name, known))
+        }
+    }
+
+    /// What each controller would say now.
+    #[must_use]
+    pub fn bids(&self, now: &Sensors) -> Vec<Bid> {
+        self.pool.iter().map(|m| m.explain(now)).collect()
+    }
+
+    /// The member with the highest bid, the earliest of equals; the fallback if all bid 0.
+    #[must_use]
+    pub fn arbitrate(&self, now: &Sensors) -> usize {
+        let mut best = (self.fallback, 0.0);
+        for (i, m) in self.pool.iter().enumerate() {
+            let bid = m.bid(now);
+            if bid > best.1 {
+                best = (i, bid);
+            }
+        }
+        best.0
+    }
+
+    /// Judges the active controller; returns why there should be an arbitration.
+    fn judge(&mut self, now: &Sensors) -> Option<Reason> {
+        let Some(active) = &mut self.active else {
+            return Some(Reason::Start);
+        };
+        let controller = &self.pool[active.member].controller;
+        if controller.contract().postcondition.holds(now) {
+            active.reached.get_or_insert(now.time);
+        } else {
+            active.reached = None;
+        }
+        let elapsed = now.time - active.since;
+        let kept = active.reached.map(|since| now.time - since);
+        match controller.progress(now, elapsed, kept) {
+            Progress::Running => None,
+            Progress::Succeeded if elapsed < DWELL => None,
+            Progress::Succeeded => Some(Reason::Succeeded),
+            Progress::Failed(unmet) => {
+                self.pool[active.member].recovers_at = now.time + RECOVERY;
+                Some(Reason::Failed(unmet))
+            }
+        }
+    }
+
+    fn switch(&mut self, now: &Sensors, member: usize, reason: Reason) {
+        let contract = self.pool[member].controller.contract();
+        let kind = EventKind::Switch {
+            from: self.active().map(str::to_owned),
+            to: contract.name.clone(),
+            role: contract.role,
+            reason,
+            bids: self.bids(now),
+        };
+        self.events.push((now.time, kind));
+        self.active = Some(Active {
+            member,
+            since: now.time,
+            reached: None,
+        });
+        self.pool[member].controller.enter(now);
+    }
+
+    /// Calls the commanded controller if its pre-condition holds, else reports the refusing clause.
+    fn follow(&mut self, now: &Sensors, member: usize, command: &Command) {
+        let controller = &mut self.pool[member].controller;
+        let refusal = match controller.contract().precondition.first_failure(now) {
+            Some(failure) => Some(failure.unmet()),
+            None => match controller.obey(command) {
+                Ok(true) => None,
+                Ok(false) => Some(Unmet::plain("declines")),
+                Err(e) => Some(Unmet::plain(e.to_string())),
+            },
+        };
+        let text = command.to_string();
+        let accepted = refusal.is_none();
+        let given = EventKind::Command {
+            text: text.clone(),
+            accepted,
+        };
+        self.events.push((now.time, given));
+        if let Some(unmet) = refusal {
+            let refused = EventKind::Refused {
+                command: text,
+                controller: Some(self.name(member).to_owned()),
+                unmet,
+            };
+            self.events.push((now.time, refused));
+        } else {
+            self.switch(now, member, Reason::Command);
+        }
+    }
+}
+
+impl Controller for Supervisor {
+    fn contract(&self) -> &Contract {
+        &self.contract
+    }
+
+    fn enter(&mut self, _: &Sensors) {
+        self.active = None;
+        for m in &mut self.pool {
+            m.recovers_at = f64::NEG_INFINITY;
+        }
+    }
+
+    fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
+        for (member, command) in std::mem::take(&mut self.pending) {
+            self.follow(now, member, &command);
+        }
+        if let Some(reason) = self.judge(now) {
+            let best = self.arbitrate(now);
+            if self.active.is_none_or(|a| a.member != best) {
+                self.switch(now, best, reason);
+            }
+        }
+        torques.fill(0.0);
+        if let Some(active) = self.active {
+            self.pool[active.member].controller.act(now, torques);
+        }
+    }
+
+    fn clone_box(&self) -> Box<dyn Controller> {
+        Box::new(self.clone())
+    }
+
+    /// Takes note of the command for the next step. The member that answers to it hears of it only
+    /// if its pre-condition then holds: a refused command leaves no trace.
+    fn obey(&mut self, command: &Command) -> Result<bool> {
+        for (i, m) in self.pool.iter().enumerate() {
+            if let Some(answer) = m.controller.contract().answer(command) {
+                answer.check(command)?;
+                self.pending.push((i, command.clone()));
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn reference_com(&self) -> Option<f64> {
+        self.active
+            .and_then(|a| self.pool[a.member].controller.reference_com())
+    }
+
+    fn grips(&self) -> bool {
+        self.active
+            .is_some_and(|a| self.pool[a.member].controller.grips())
+    }
+
+    fn take_events(&mut self) -> Vec<(f64, EventKind)> {
+        let mut all = std::mem::take(&mut self.events);
+        for m in &mut self.pool {
+            all.append(&mut m.controller.take_events());
+        }
+        all
+    }
+}

@@ -1,0 +1,393 @@
+//! One run: world, minds, timed pushes and commands, events, digest, recording.
+//!
+//! scenario → [`Simulation`] → events, [`Outcome`], trajectory. The same loop serves the program,
+//! rollouts, tests and drawings. A clone continues bit for bit.
+
+use std::sync::Arc;
+
+use crate::character::Model;
+use crate::control::{Controller, Registry, Supervisor, repertoire};
+use crate::events::{Event, EventKind, Unmet};
+use crate::input::{Error, Result};
+use crate::run::actor::{Actor, Outcome};
+use crate::run::schedule::{Input, Schedule, TimedInput};
+use crate::run::start::start_state;
+use crate::run::trajectory::{Cast, Digest, Header, Trajectory, push_character};
+use crate::run::watch::Watch;
+use crate::scenario::{Expectation, PUSH_DURATION, Scenario, ScheduledInput};
+use crate::sensing::Sensors;
+use crate::world::World;
+
+/// One step of the whole loop for one character: sense, think, actuate. Returns what was sensed.
+/// The world is stepped by the caller, once for all characters.
+pub fn tick<'a>(
+    world: &'a mut World,
+    character: usize,
+    mind: &mut dyn Controller,
+    torques: &mut [f64],
+) -> &'a Sensors {
+    let now = world.sense(character);
+    mind.act(now, torques);
+    world.actuate(character, torques);
+    world.grip(character, mind.grips());
+    &world.characters()[character].sensors
+}
+
+/// A run in progress.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    world: World,
+    actors: Vec<Actor>,
+    schedule: Schedule,
+    events: Vec<Event>,
+    digest: Digest,
+    row: Vec<f32>,
+    recording: Option<Trajectory>,
+    watches: Vec<Watch>,
+}
+
+impl Simulation {
+    /// Puts the scenario's characters and props into a world.
+    ///
+    /// # Errors
+    /// Unreadable or invalid characters and repertoires; links, joints or commands that they lack.
+    pub fn new(scenario: &Scenario, registry: &Registry) -> Result<Self> {
+        let mut cast = Vec::with_capacity(scenario.characters.len());
+        for role in &scenario.characters {
+            let model = Model::load(&role.character)?;
+            let repertoire = role.repertoire(&model);
+            let mind = repertoire::load(repertoire, registry, &model)?;
+            cast.push((model, mind));
+        }
+        Self::with_cast(scenario, cast)
+    }
+
+    /// The same with characters and minds that were built elsewhere, one pair a character of the
+    /// scenario.
+    ///
+    /// # Errors
+    /// Another number of characters; joints, links or commands that they lack.
+    pub fn with_cast(scenario: &Scenario, cast: Vec<(Arc<Model>, Supervisor)>) -> Result<Self> {
+        if cast.len() != scenario.characters.len() {
+            return Err(Error::invalid(
+                &scenario.name,
+                "characters",
+                cast.len(),
+                format!("one mind for each of the {}", scenario.characters.len()),
+            ));
+        }
+        let mut world = World::new(scenario.settings);
+        let mut actors = Vec::with_capacity(cast.len());
+        for (role, (model, mind)) in scenario.characters.iter().zip(cast) {
+            world.spawn(&model, &start_state(&model, &role.start)?);
+            actors.push(Actor::new(mind, &model));
+        }
+        for prop in &scenario.props {
+            world.add_prop(&scenario.prop(prop)?);
+        }
+        for hinge in &scenario.joints {
+            world.add_hinge(&scenario.hinge(hinge)?);
+        }
+        world.detect_contacts();
+        for character in 0..actors.len() {
+            world.sense(character);
+        }
+        let mut simulation = Self {
+            world,
+            actors,
+            schedule: Schedule::default(),
+            events: Vec::new(),
+            digest: Digest::default(),
+            row: Vec::new(),
+            recording: None,
+            watches: Vec::new(),
+        };
+        for (i, expectation) in scenario.expect.iter().enumerate() {
+            let watch = Watch::new(expectation, scenario, &simulation.world)
+                .map_err(|e| e.at(&format!("{}: expect[{i}]", scenario.name)))?;
+            simulation.watches.extend(watch);
+        }
+        for event in &scenario.events {
+            simulation.schedule(scenario, event)?;
+        }
+        Ok(simulation)
+    }
+
+    /// Adds a push or a command to what will happen.
+    ///
+    /// # Errors
+    /// An unknown link, a malformed command or one that nobody answers to.
+    pub fn schedule(&mut self, scenario: &Scenario, event: &ScheduledInput) -> Result<()> {
+        let character = event.character();
+        let mind = &self.actors[character].mind;
+        let timed = TimedInput::new(event, scenario, self.model(character), mind)?;
+        self.schedule.add(timed);
+        Ok(())
+    }
+
+    /// Pushes a character's link now: horizontal impulse in N·s over 0.1 s.
+    ///
+    /// # Errors
+    /// An unknown link, or an impulse that is not finite.
+    pub fn push(&mut self, character: usize, link: &str, impulse: f64) -> Result<()> {
+        self.shove(character, link, [impulse, 0.0], PUSH_DURATION)
+    }
+
+    /// Pushes a character's link now, in any direction: impulse in N·s, forward and up, spread over
+    /// a time, s.
+    ///
+    /// # Errors
+    /// An unknown link; an impulse that is not finite; a time that is not from 0 to 60 s.
+    pub fn shove(
+        &mut self,
+        character: usize,
+        link: &str,
+        impulse: [f64; 2],
+        over: f64,
+    ) -> Result<()> {
+        let link = self.model(character).link_index(link)?;
+        if let Some(bad) = impulse.iter().find(|i| !i.is_finite()) {
+            let accepted = "a finite number of N·s";
+            return Err(Error::invalid("push", "impulse", bad, accepted));
+        }
+        if !(0.0..=60.0).contains(&over) {
+            return Err(Error::invalid("push", "over", over, "0 to 60 s"));
+        }
+        self.do_push(character, link, impulse, over);
+        Ok(())
+    }
+
+    /// Gives a character a command now.
+    ///
+    /// # Errors
+    /// A malformed command, or one that nobody answers to, with the nearest name.
+    pub fn command(&mut self, character: usize, text: &str) -> Result<()> {
+        let given = self.actors[character].mind.command(text);
+        given.inspect_err(|e| {
+            let kind = EventKind::Command {
+                text: text.to_owned(),
+                accepted: false,
+            };
+            self.note(character, kind);
+            let kind = EventKind::Refused {
+                command: text.to_owned(),
+                controller: None,
+                unmet: Unmet::plain(e.to_string()),
+            };
+            self.note(character, kind);
+        })
+    }
+
+    /// Starts recording every step from here on.
+    pub fn record(&mut self, scenario: &str, seed: u64) {
+        let cast = (0..self.actors.len()).map(|i| Cast {
+            model: self.model(i).source.clone(),
+            controllers: self.controllers(i),
+        });
+        let header = Header {
+            scenario: scenario.to_owned(),
+            seed,
+            dt: self.world.settings().dt,
+            cast: cast.collect(),
+            props: self.world.props().cloned().collect(),
+        };
+        let models = (0..self.actors.len())
+            .map(|i| Arc::clone(self.model(i)))
+            .collect();
+        self.recording = Some(Trajectory::new(header, models));
+    }
+
+    /// The recording so far, with all events.
+    #[must_use]
+    pub fn recording(&self) -> Option<Trajectory> {
+        self.recording.clone().map(|mut t| {
+            t.events = self.events.clone();
+            t
+        })
+    }
+
+    /// The recording with all events, of a run that goes no further.
+    #[must_use]
+    pub fn into_recording(self) -> Option<Trajectory> {
+        let mut recording = self.recording?;
+        recording.events = self.events;
+        Some(recording)
+    }
+
+    fn controllers(&self, character: usize) -> Vec<String> {
+        let pool = self.actors[character].mind.controllers();
+        pool.map(|c| c.contract().name.clone()).collect()
+    }
+
+    fn model(&self, character: usize) -> &Arc<Model> {
+        self.world.characters()[character].body.model()
+    }
+
+    /// The world.
+    #[must_use]
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The characters' minds.
+    #[must_use]
+    pub fn actors(&self) -> &[Actor] {
+        &self.actors
+    }
+
+    /// Gives a character another mind, which takes over in the next step.
+    pub fn set_mind(&mut self, character: usize, mind: Supervisor) {
+        self.actors[character].mind = mind;
+    }
+
+    /// What a character sensed in the last step.
+    #[must_use]
+    pub fn sensors(&self, character: usize) -> &Sensors {
+        &self.world.characters()[character].sensors
+    }
+
+    /// All that happened so far.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// Hash of every step's state so far.
+    #[must_use]
+    pub fn digest(&self) -> String {
+        self.digest.text()
+    }
+
+    /// s since the run began.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.world.time()
+    }
+
+    /// Runs for a duration, s.
+    pub fn run(&mut self, duration: f64) {
+        let steps = (duration / self.world.settings().dt).round() as u64;
+        for _ in 0..steps {
+            self.step();
+        }
+    }
+
+    /// One step: what is due happens, every character senses and thinks, the world moves.
+    pub fn step(&mut self) {
+        let due = self.world.time() + 0.5 * self.world.settings().dt;
+        while let Some(TimedInput {
+            character, input, ..
+        }) = self.schedule.next_before(due)
+        {
+            match input {
+                Input::Push {
+                    link,
+                    impulse,
+                    over,
+                } => self.do_push(character, link, [impulse, 0.0], over),
+                // A refusal is in the events.
+                Input::Command(text) => drop(self.command(character, &text)),
+            }
+        }
+        self.row.clear();
+        for (i, actor) in self.actors.iter_mut().enumerate() {
+            let now = tick(&mut self.world, i, &mut actor.mind, &mut actor.torques);
+            let active = actor.mind.active_index().unwrap_or(0);
+            push_character(&mut self.row, now, actor.mind.reference_com(), active);
+            actor.observe(i, now, &mut self.events);
+        }
+        self.row.extend(self.world.prop_poses().flatten());
+        self.digest.row(&self.row);
+        if let Some(recording) = &mut self.recording {
+            recording.push_row(&self.row);
+        }
+        for watch in &mut self.watches {
+            watch.observe(&self.world);
+        }
+        self.world.step();
+        let time = self.world.time();
+        for (character, kind) in self.world.take_events() {
+            self.events.push(Event {
+                time,
+                character,
+                kind,
+            });
+        }
+    }
+
+    fn do_push(&mut self, character: usize, link: usize, impulse: [f64; 2], over: f64) {
+        let name = self.model(character).links[link].name.clone();
+        self.world.push(character, link, impulse, over);
+        let kind = EventKind::Push {
+            link: name,
+            impulse,
+        };
+        self.note(character, kind);
+    }
+
+    /// Something happened now.
+    fn note(&mut self, character: usize, kind: EventKind) {
+        self.events.push(Event {
+            time: self.world.time(),
+            character,
+            kind,
+        });
+    }
+
+    /// How a character has ended.
+    #[must_use]
+    pub fn outcome(&self, character: usize) -> Outcome {
+        self.actors[character].outcome(self.sensors(character))
+    }
+
+    /// Whether the run has met all of these expectations of its scenario.
+    #[must_use]
+    pub fn met(&self, expectations: &[Expectation]) -> bool {
+        self.unmet(expectations).is_none()
+    }
+
+    /// The first expectation of a scenario that the run did not meet, in words.
+    #[must_use]
+    pub fn unmet(&self, expectations: &[Expectation]) -> Option<String> {
+        expectations.iter().find_map(|e| self.unmet_one(e))
+    }
+
+    /// What the run has not shown of an expectation, in words; none if it has.
+    fn unmet_one(&self, expectation: &Expectation) -> Option<String> {
+        match expectation {
+            Expectation::Balanced { .. }
+            | Expectation::Holds { .. }
+            | Expectation::Reaches { .. }
+            | Expectation::Prop { .. } => {
+                match self.watches.iter().find(|w| w.expectation == *expectation) {
+                    Some(watch) => watch.unmet(&self.world),
+                    None => Some("an expectation that the run's own scenario has not".to_owned()),
+                }
+            }
+            Expectation::Standing { character } => (!self.outcome(*character).standing)
+                .then(|| format!("character {character} does not stand at the end")),
+            Expectation::Active {
+                name,
+                before,
+                character,
+            } => {
+                let became = |e: &Event| {
+                    matches!(&e.kind, EventKind::Switch { to, .. } if to == name)
+                        && e.character == *character
+                        && e.time <= *before
+                };
+                (!self.events.iter().any(became))
+                    .then(|| format!("'{name}' was not active before {before} s"))
+            }
+            Expectation::Posture {
+                posture,
+                before,
+                character,
+            } => {
+                let seen = self.actors[*character].first_in(*posture);
+                (seen.is_none_or(|t| t > *before))
+                    .then(|| format!("not {} before {before} s", posture.name()))
+            }
+        }
+    }
+}

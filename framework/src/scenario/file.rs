@@ -1,0 +1,200 @@
+//! A scenario file: characters, props, timed pushes and commands, duration, seed, and what is
+//! expected of the run.
+//!
+//! RON → [`Scenario`] → simulation. Parameters that the file declares can be set from outside.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use crate::character::Model;
+use crate::input::{Error, Result, Source};
+use crate::scenario::expectation::Expectation;
+use crate::scenario::limits::PUSH_DURATION;
+use crate::scenario::number::{Adjustable, Number};
+use crate::scenario::props::{HingeEntry, PropEntry};
+use crate::world::Settings;
+
+/// How a character begins.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Start {
+    /// World x of the root's origin, m.
+    pub x: f64,
+    /// Gap between the lowest point of the character and the ground, m.
+    pub lift: f64,
+    /// Pitch of the root, rad; π/2 lies on its back.
+    pub pitch: f64,
+    /// Joint angles by name, rad; the others are 0.
+    pub angles: BTreeMap<String, f64>,
+}
+
+/// A character of a scenario.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Participant {
+    /// Built-in name or file.
+    pub character: String,
+    /// Shipped name or file; the character's own by default.
+    #[serde(default)]
+    pub repertoire: Option<String>,
+    /// Standing by default.
+    #[serde(default)]
+    pub start: Start,
+}
+
+/// Something done to a character at a time.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum ScheduledInput {
+    /// A push at a link's centre of mass.
+    Push {
+        /// s
+        at: Number,
+        /// Name of the link.
+        link: String,
+        /// Horizontal impulse, N·s, forward positive.
+        impulse: Number,
+        /// s over which it is spread evenly.
+        #[serde(default = "push_duration")]
+        over: f64,
+        /// Place of the character.
+        #[serde(default)]
+        character: usize,
+    },
+    /// A command string.
+    Command {
+        /// s
+        at: Number,
+        /// For the supervisor. `{NAME}` stands for the value of a parameter, `{-NAME}` for its
+        /// negative.
+        text: String,
+        /// Place of the character.
+        #[serde(default)]
+        character: usize,
+    },
+}
+
+impl ScheduledInput {
+    /// Place of the character that it happens to.
+    pub(crate) fn character(&self) -> usize {
+        let (Self::Push { character, .. } | Self::Command { character, .. }) = self;
+        *character
+    }
+}
+
+fn push_duration() -> f64 {
+    PUSH_DURATION
+}
+
+impl Participant {
+    /// Its repertoire: the one that is named, or the character's own.
+    #[must_use]
+    pub fn repertoire<'a>(&'a self, model: &'a Model) -> &'a str {
+        self.repertoire.as_deref().unwrap_or(&model.name)
+    }
+}
+
+/// A validated scenario.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// For messages and recordings.
+    pub name: String,
+    /// s
+    pub duration: f64,
+    /// Fixes everything random.
+    #[serde(default)]
+    pub seed: u64,
+    /// Physical settings.
+    #[serde(default)]
+    pub settings: Settings,
+    /// Who takes part.
+    pub characters: Vec<Participant>,
+    /// What stands or flies about.
+    #[serde(default)]
+    pub props: Vec<PropEntry>,
+    /// Hinges between props, and between props and the world.
+    #[serde(default)]
+    pub joints: Vec<HingeEntry>,
+    /// What is done, when.
+    #[serde(default)]
+    pub events: Vec<ScheduledInput>,
+    /// What the run is expected to show.
+    #[serde(default)]
+    pub expect: Vec<Expectation>,
+    /// Numbers that can be set from outside, with their defaults and what they may be set to.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, Adjustable>,
+}
+
+impl Scenario {
+    /// A character standing on level ground with its whole repertoire.
+    #[must_use]
+    pub fn standing(character: &str, duration: f64) -> Self {
+        Self {
+            name: "standing".to_owned(),
+            duration,
+            seed: 0,
+            settings: Settings::default(),
+            characters: vec![Participant {
+                character: character.to_owned(),
+                repertoire: None,
+                start: Start::default(),
+            }],
+            props: Vec::new(),
+            joints: Vec::new(),
+            events: Vec::new(),
+            expect: Vec::new(),
+            parameters: BTreeMap::new(),
+        }
+    }
+
+    /// Reads and validates a scenario file.
+    ///
+    /// # Errors
+    /// An unreadable or invalid file, named with line and field.
+    pub fn read(path: &Path) -> Result<Self> {
+        Self::parse(&Source::read(path)?)
+    }
+
+    /// Reads and validates a scenario in text.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn parse(source: &Source) -> Result<Self> {
+        let scenario: Self = source.parse()?;
+        scenario.validate(source)?;
+        Ok(scenario)
+    }
+
+    /// Sets a parameter: one that the scenario declares, or `friction`, `gravity`, `torque`, `mass`
+    /// (of [`Settings`]), `duration`.
+    ///
+    /// # Errors
+    /// An unknown name, or a value that is out of bounds or puts anything else out of its bounds;
+    /// the scenario is then as it was.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        let mut changed = self.clone();
+        let own = changed.parameters.get_mut(name).map(|p| &mut p.value);
+        let settings = &mut changed.settings;
+        *match name {
+            _ if own.is_some() => own,
+            "friction" => Some(&mut settings.friction),
+            "gravity" => Some(&mut settings.gravity),
+            "torque" => Some(&mut settings.torque),
+            "mass" => Some(&mut settings.mass),
+            "duration" => Some(&mut changed.duration),
+            _ => None,
+        }
+        .ok_or_else(|| {
+            let own = self.parameters.keys().map(String::as_str);
+            let known = own.chain(["friction", "gravity", "torque", "mass", "duration"]);
+            Error::unknown("parameter", name, known)
+        })? = value;
+        changed.validate(&Source::new(self.name.clone(), ""))?;
+        *self = changed;
+        Ok(())
+    }
+}

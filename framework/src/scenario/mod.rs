@@ -1,0 +1,18 @@
+//! The file of a scenario: characters, props, timed pushes and commands, expectations, parameters.
+//!
+//! RON → [`Scenario`] → run. Only the schema and its bounds; nothing here runs.
+
+mod bounds;
+mod expectation;
+mod file;
+mod limits;
+mod number;
+mod placing;
+mod props;
+mod values;
+
+pub use expectation::{Expectation, Quantity};
+pub use file::{Participant, Scenario, ScheduledInput, Start};
+pub use limits::{LONGEST_RUN, MOST_CHARACTERS, MOST_ENTRIES, PUSH_DURATION};
+pub use number::{Adjustable, Number};
+pub use props::{HingeEntry, PropEntry};

@@ -1,0 +1,17 @@
+//! Bodies, contacts, props, hands that hold: the physics. The only folder that names the engine.
+//!
+//! models, props, torques → [`World`] → sensors.
+
+mod body;
+mod contact;
+mod engine;
+mod fastening;
+mod grip;
+mod prop;
+mod props;
+mod settings;
+
+pub use body::Body;
+pub use engine::{Character, World};
+pub use prop::{Hinge, Prop, PropMotion};
+pub use settings::{Settings, integration_parameters};

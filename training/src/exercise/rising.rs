@@ -1,0 +1,270 @@
+//! How well a controller brings a fallen character to its goal: a cost over many starts.
+//!
+//! starts, mind → rollouts → success, time, impacts → cost.
+
+use aplomb_framework::control::{Condition, Contract, Supervisor};
+use aplomb_framework::events::{EventKind, Reason};
+use aplomb_framework::run::Simulation;
+use aplomb_framework::sensing::{Posture, Sensors};
+
+use crate::exercise::impact::Impact;
+
+/// s for which the character must stand to have risen.
+const STEADY: f64 = 0.3;
+/// s within which the goal is to be reached.
+const LONGEST: f64 = 10.0;
+
+/// What a controller is to bring about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Goal {
+    /// Standing still, with the controllers that follow it.
+    Stand,
+    /// Its own post-condition, in this posture.
+    Reach(Posture),
+}
+
+impl Goal {
+    /// Of a contract: standing if its post-condition names a posture on the feet alone or none at all,
+    /// else the post-condition.
+    #[must_use]
+    pub fn of(contract: &Contract) -> Self {
+        let any = postures(&contract.postcondition).unwrap_or_default();
+        let on_feet = |p: &Posture| matches!(p, Posture::Standing | Posture::Crouching);
+        match any.first() {
+            Some(first) if !any.iter().any(on_feet) => Self::Reach(*first),
+            _ => Self::Stand,
+        }
+    }
+}
+
+fn postures(condition: &Condition) -> Option<&[Posture]> {
+    match condition {
+        Condition::Posture(any) => Some(any),
+        Condition::All(all) => all.iter().find_map(postures),
+        _ => None,
+    }
+}
+
+/// What became of one start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rising {
+    /// Whether the goal was reached.
+    pub reached: bool,
+    /// s until then, or until it was given up.
+    pub time: f64,
+    /// How near it came, 0 to 1.
+    pub nearest: f64,
+    /// Largest filtered force on head, N.
+    pub head_force: f64,
+    /// Largest filtered force on trunk and root, N.
+    pub trunk_force: f64,
+    /// Mean of the squared joint velocities, (rad/s)².
+    pub motion: f64,
+}
+
+impl Rising {
+    /// What it is charged: time, impacts and needless motion, each little, and much for a goal that
+    /// is missed, the more the farther.
+    #[must_use]
+    pub fn cost(&self) -> f64 {
+        let hurt = self.head_force / 3000.0 + self.trunk_force / 10_000.0;
+        let price = 0.1 * self.time + 0.1 * hurt + 0.002 * self.motion.min(50.0);
+        if self.reached {
+            price
+        } else {
+            2.0 - self.nearest + price.min(0.8)
+        }
+    }
+}
+
+/// Runs `mind` from a start, at which it is commanded to the controller with this contract, until
+/// the goal is reached or any controller fails.
+#[must_use]
+pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Goal) -> Rising {
+    let mut run = start.clone();
+    run.set_mind(0, mind.clone());
+    if let Some(command) = contract.commands.first() {
+        // Its pre-condition holds: this is where it took over. Nobody answers only if the repertoire
+        // lacks the controller; then the others do what they can.
+        drop(run.command(0, &command.name));
+    }
+    let begun = run.time();
+    let dt = run.world().settings().dt;
+    let mut impact = Impact::new(dt);
+    let barred = barred(&contract.expected);
+    let (mut steady, mut kept) = (0.0, 0.0);
+    let mut all = Rising {
+        reached: false,
+        time: LONGEST,
+        nearest: 0.0,
+        head_force: 0.0,
+        trunk_force: 0.0,
+        motion: 0.0,
+    };
+    let mut steps = 0.0;
+    let mut seen = run.events().len();
+    while run.time() - begun < LONGEST {
+        run.step();
+        let now = run.sensors(0);
+        impact.observe(now);
+        all.head_force = all.head_force.max(impact.head);
+        all.trunk_force = all.trunk_force.max(impact.trunk);
+        all.motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
+        steps += 1.0;
+        all.nearest = f64::max(all.nearest, nearness(now, goal, barred));
+        let name = run.actors()[0].mind.active().unwrap_or_default();
+        match goal {
+            Goal::Stand => {
+                steady = if now.stands() { steady + dt } else { 0.0 };
+                all.reached = steady >= STEADY;
+            }
+            Goal::Reach(_) => {
+                kept = if contract.postcondition.holds(now) {
+                    kept + dt
+                } else {
+                    0.0
+                };
+                all.reached = kept >= contract.hold && name != contract.name;
+            }
+        }
+        let given_up = run.events()[seen..].iter().any(|e| {
+            matches!(
+                &e.kind,
+                EventKind::Switch {
+                    reason: Reason::Failed(_),
+                    ..
+                }
+            )
+        });
+        seen = run.events().len();
+        if all.reached || given_up {
+            break;
+        }
+    }
+    all.time = run.time() - begun;
+    all.motion /= steps;
+    all
+}
+
+/// The upper end of the pitches that the trunk must not pass through, if the expected performance has
+/// any: they tell which way round to turn.
+fn barred(expected: &Condition) -> Option<f64> {
+    match expected {
+        Condition::All(all) => all.iter().find_map(barred),
+        Condition::Not(inner) => match &**inner {
+            Condition::Within { feature, max, .. } if feature.to_string() == "trunk_pitch" => {
+                Some(*max)
+            }
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// How much of half a turn is done to a pitch, on the way that does not lead through the barred ones.
+fn turned_round(pitch: f64, aim: f64, barred: f64) -> f64 {
+    let past = |x: f64| (x - barred).rem_euclid(std::f64::consts::TAU);
+    let left = (past(aim) - past(pitch)).abs();
+    (1.0 - left / std::f64::consts::PI).max(0.0)
+}
+
+/// How near a situation is to the goal, 0 to 1.
+fn nearness(now: &Sensors, goal: Goal, barred: Option<f64>) -> f64 {
+    match goal {
+        Goal::Stand => {
+            let height = now.com_height() / now.model.standing_com()[1];
+            let head = now.kinematics.links[now.model.head].com[1] - now.ground;
+            let head = (head / 1.6).clamp(0.0, 1.0);
+            let off = now.base_of_support.map_or(1.0, |[rear, front]| {
+                let x = now.capture_point;
+                (rear + 0.03 - x).max(x - front + 0.03).max(0.0)
+            });
+            let over = (1.0 - off / 0.6).max(0.0);
+            let on_feet = f64::from(u8::from(now.only_feet_support()));
+            (0.15 * head + over * (0.25 + on_feet * (0.3 + 0.3 * height))).min(1.0)
+        }
+        Goal::Reach(posture) => {
+            let aim = match posture {
+                Posture::Supine => std::f64::consts::FRAC_PI_2,
+                Posture::Prone => -std::f64::consts::FRAC_PI_2,
+                _ => 0.0,
+            };
+            let pitch = now.trunk_pitch();
+            let turned = match barred {
+                Some(barred) => turned_round(pitch, aim, barred),
+                None => 0.5 * (1.0 + (pitch - aim).cos()),
+            };
+            let there = f64::from(u8::from(now.posture == posture));
+            0.8 * turned + 0.2 * there
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use aplomb_framework::character::Model;
+    use aplomb_framework::control::repertoire;
+    use aplomb_framework::scenario::Scenario;
+    use std::sync::Arc;
+
+    fn goal(postcondition: &str) -> Goal {
+        let text = format!(
+            r#"(name: "x", weight: 1, precondition: Always, postcondition: {postcondition})"#
+        );
+        Goal::of(&ron::from_str(&text).unwrap())
+    }
+
+    #[test]
+    fn the_goal_is_to_stand_unless_the_postcondition_is_off_the_feet() {
+        assert_eq!(goal("Posture([standing])"), Goal::Stand);
+        assert_eq!(goal("Posture([hands_and_feet, crouching])"), Goal::Stand);
+        assert_eq!(
+            goal(r#"Within(feature: "com_height", min: 1)"#),
+            Goal::Stand
+        );
+        let prone = "All([Within(feature: \"com_speed\", max: 1), Posture([prone, supine])])";
+        assert_eq!(goal(prone), Goal::Reach(Posture::Prone));
+    }
+
+    #[test]
+    fn what_is_barred_tells_which_way_to_turn() {
+        use std::f64::consts::{FRAC_PI_2, PI};
+        let text =
+            r#"All([Posture([prone]), Not(Within(feature: "trunk_pitch", min: -1.2, max: 0.3))])"#;
+        let barred = barred(&ron::from_str(text).unwrap()).unwrap();
+        assert_eq!(barred, 0.3);
+        // From the back over the shoulders to the belly.
+        let done = |pitch| turned_round(pitch, -FRAC_PI_2, barred);
+        assert!(done(FRAC_PI_2) < 1e-9);
+        assert!(done(0.5) < 1e-9, "sitting up leads away");
+        assert!((done(PI - 1e-6) - 0.5).abs() < 1e-5);
+        assert!((done(-PI + 1e-6) - 0.5).abs() < 1e-5);
+        assert!((done(-FRAC_PI_2) - 1.0).abs() < 1e-9);
+    }
+
+    /// A controller of a shipped repertoire, from standing upright or lying on the back.
+    fn shipped(repertoire: &str, name: &str, pitch: f64) -> Rising {
+        let model = Model::load("humanoid").unwrap();
+        let registry = aplomb_controllers::registry();
+        let mind = repertoire::load(repertoire, &registry, &model).unwrap();
+        let mut pool = mind.controllers().map(|c| c.contract().clone());
+        let contract = pool.find(|c| c.name == name).unwrap();
+        let mut scenario = Scenario::standing("humanoid", 10.0);
+        scenario.characters[0].start.pitch = pitch;
+        let cast = vec![(Arc::clone(&model), mind.clone())];
+        let mut start = Simulation::with_cast(&scenario, cast).unwrap();
+        start.run(0.5);
+        rise(&start, &mind, &contract, Goal::Stand)
+    }
+
+    #[test]
+    fn standing_costs_little_and_staying_down_much() {
+        let bow = shipped("humanoid", "bow", 0.0);
+        assert!(bow.reached && bow.cost() < 0.1, "{bow:?}");
+        assert!((bow.time - STEADY).abs() < 0.01, "{bow:?}");
+        let rest = shipped("limp", "rest", std::f64::consts::FRAC_PI_2);
+        assert!(!rest.reached && rest.nearest < 0.5, "{rest:?}");
+        assert!(rest.cost() > 1.5, "{rest:?}");
+    }
+}

@@ -1,0 +1,81 @@
+//! How well a step takes pushes that balance in place does not.
+//!
+//! push, mind → rollout → steady on parallel feet, time, way, bent trunk → cost.
+
+use aplomb_framework::control::Supervisor;
+use aplomb_framework::run::Simulation;
+
+/// s after the push within which it is to stand.
+const LONGEST: f64 = 6.0;
+/// s for which it must stand.
+const STEADY: f64 = 0.3;
+
+/// What became of one push.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stepped {
+    /// Whether it stood still on parallel feet in time, and never came down.
+    pub stood: bool,
+    /// s from the push.
+    pub time: f64,
+    /// m that the centre of mass was moved.
+    pub way: f64,
+    /// Mean of the trunk's pitch squared, rad².
+    pub bent: f64,
+    /// Mean of the squared joint velocities, (rad/s)².
+    pub motion: f64,
+}
+
+impl Stepped {
+    /// What it is charged: time, way, a bent trunk and needless motion, each little, and much for
+    /// coming down, the more the sooner.
+    #[must_use]
+    pub fn cost(&self) -> f64 {
+        if self.stood {
+            let motion = 0.003 * self.motion.min(100.0);
+            0.06 * self.time + 0.2 * self.way + 0.5 * self.bent.min(1.0) + motion
+        } else {
+            3.0 - 0.25 * self.time
+        }
+    }
+}
+
+/// Runs `mind` from a push on.
+#[must_use]
+pub fn step(start: &Simulation, mind: &Supervisor) -> Stepped {
+    let mut run = start.clone();
+    run.set_mind(0, mind.clone());
+    let (begun, x) = (run.time(), run.sensors(0).com[0]);
+    let dt = run.world().settings().dt;
+    let mut all = Stepped {
+        stood: false,
+        time: LONGEST,
+        way: 0.0,
+        bent: 0.0,
+        motion: 0.0,
+    };
+    let (mut steps, mut steady) = (0.0, 0.0);
+    while run.time() - begun < LONGEST {
+        run.step();
+        let now = run.sensors(0);
+        steps += 1.0;
+        all.bent += now.trunk_pitch().powi(2);
+        all.motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
+        if now.is_down() {
+            break;
+        }
+        steady = if now.stands() && now.feet_apart() < 0.06 {
+            steady + dt
+        } else {
+            0.0
+        };
+        if steady >= STEADY {
+            all.stood = true;
+            break;
+        }
+    }
+    all.time = run.time() - begun;
+    all.way = (run.sensors(0).com[0] - x).abs();
+    all.bent /= steps;
+    all.motion /= steps;
+    all
+}

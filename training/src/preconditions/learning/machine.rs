@@ -1,0 +1,354 @@
+//! A support vector machine with balanced classes (Cortes & Vapnik 1995), whatever solves it.
+//!
+//! standardised rows, labels, [`Settings`] → [`Machine`]; standardised row → score, a success if it
+//! is at least 0.
+
+use std::fmt;
+use std::str::FromStr;
+
+use aplomb_framework::control::boundary::DecisionFunction;
+use aplomb_framework::input::{Error, Result};
+
+use super::{libsvm_solver, linfa_solver, polynomial};
+
+/// The most samples that linfa-svm is given: its dense kernel matrix and its time grow with the
+/// square of their number.
+pub const MOST_FOR_LINFA: usize = 5_000;
+/// Decimals of a support vector in a boundary file: a ten-thousandth of a standard deviation decides nothing, and the
+/// file has less than half the size.
+pub const SUPPORT_DIGITS: i32 = 4;
+
+/// What stands for the scalar product of two standardised rows x, y.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kernel {
+    /// x·y.
+    Linear,
+    /// (γ x·y + 1)².
+    Poly2,
+    /// (γ x·y + 1)³.
+    Poly3,
+    /// exp(−γ |x − y|²).
+    Rbf,
+}
+
+impl Kernel {
+    /// All of them, simplest first.
+    pub const ALL: [Self; 4] = [Self::Linear, Self::Poly2, Self::Poly3, Self::Rbf];
+
+    /// The kernels that a name allows: those of [`Kernel::ALL`] for `auto`, or the one.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`].
+    pub fn allowed(name: &str) -> Result<Vec<Self>> {
+        if name == "auto" {
+            return Ok(Self::ALL.to_vec());
+        }
+        let known = || ["auto"].into_iter().chain(Self::ALL.map(Self::name));
+        let kernel = Self::named(name);
+        let kernel = kernel.ok_or_else(|| Error::unknown("kernel", name, known()))?;
+        Ok(vec![kernel])
+    }
+
+    fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|k| k.name() == name)
+    }
+
+    /// `linear`, `poly2`, `poly3` or `rbf`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Poly2 => "poly2",
+            Self::Poly3 => "poly3",
+            Self::Rbf => "rbf",
+        }
+    }
+
+    /// Degree of the polynomial, if it is one.
+    #[must_use]
+    pub fn degree(self) -> Option<u8> {
+        match self {
+            Self::Linear => Some(1),
+            Self::Poly2 => Some(2),
+            Self::Poly3 => Some(3),
+            Self::Rbf => None,
+        }
+    }
+
+    /// K(x, y).
+    #[must_use]
+    pub fn value(self, gamma: f64, x: &[f64], y: &[f64]) -> f64 {
+        let pairs = x.iter().zip(y);
+        if self == Self::Rbf {
+            let square: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
+            return (-gamma * square).exp();
+        }
+        let product: f64 = pairs.map(|(a, b)| a * b).sum();
+        let base = gamma * product + 1.0;
+        match self {
+            Self::Linear => product,
+            Self::Poly2 => base * base,
+            _ => base * base * base,
+        }
+    }
+}
+
+impl fmt::Display for Kernel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Kernel {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self> {
+        Self::named(name).ok_or_else(|| Error::unknown("kernel", name, Self::ALL.map(Self::name)))
+    }
+}
+
+/// What a machine is trained with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// The kernel.
+    pub kernel: Kernel,
+    /// Price of a violated margin; that of a class with `k` of `n` samples is `c n / (2 k)`.
+    pub c: f64,
+    /// Coefficient γ of the kernel on standardised rows; the linear kernel has none.
+    pub gamma: f64,
+}
+
+/// A trained machine: score = Σ weight · K(support vector, z) + offset.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Machine {
+    /// The kernel.
+    pub kernel: Kernel,
+    /// Its coefficient γ.
+    pub gamma: f64,
+    /// Support vectors: standardised rows of the training set.
+    pub support: Vec<Vec<f64>>,
+    /// Weight of each: positive for a success.
+    pub weights: Vec<f64>,
+    /// Added to the sum.
+    pub offset: f64,
+    /// `linfa-svm` or `libsvm-rs`.
+    pub solver: &'static str,
+}
+
+impl Machine {
+    /// Score of a standardised row; a success if it is at least 0.
+    #[must_use]
+    pub fn score(&self, z: &[f64]) -> f64 {
+        let terms = self.support.iter().zip(&self.weights);
+        let sum: f64 = terms
+            .map(|(x, weight)| weight * self.kernel.value(self.gamma, x, z))
+            .sum();
+        sum + self.offset
+    }
+
+    /// What the framework evaluates: the exact polynomial, or the radial sum over support vectors that are
+    /// rounded to [`SUPPORT_DIGITS`].
+    #[must_use]
+    pub fn decision(&self) -> DecisionFunction {
+        match (self.collapse(), self.kernel.degree()) {
+            (Some(coefficients), Some(degree)) => DecisionFunction::Polynomial {
+                degree,
+                coefficients,
+            },
+            _ => DecisionFunction::Gaussian {
+                gamma: self.gamma,
+                support: self.support.iter().map(|x| rounded(x)).collect(),
+                weights: self.weights.clone(),
+                offset: self.offset,
+            },
+        }
+    }
+
+    /// The exact polynomial in z that the sum is, unless the kernel is radial: coefficients of 1, of
+    /// zᵢ, of zᵢ zⱼ for i ≤ j and of zᵢ zⱼ zₖ for i ≤ j ≤ k as far as the degree goes, each in
+    /// lexicographic order of the indices.
+    #[must_use]
+    pub fn collapse(&self) -> Option<Vec<f64>> {
+        let degree = self.kernel.degree()?;
+        // The linear kernel is no (γ x·y + 1)¹: it lacks γ and the 1.
+        let (gamma, constant) = match self.kernel {
+            Kernel::Linear => (1.0, 0.0),
+            _ => (self.gamma, 1.0),
+        };
+        let terms = self.support.iter().zip(&self.weights);
+        let mut coefficients = polynomial::of_powers(terms, degree, gamma, constant)?;
+        coefficients[0] += self.offset;
+        Some(coefficients)
+    }
+}
+
+/// Trains a machine with linfa-svm, or with libsvm-rs above [`MOST_FOR_LINFA`] samples.
+///
+/// # Errors
+/// [`Error::Invalid`] if the rows are not finite or differ in length, a class has fewer than two
+/// samples, C or γ is not positive, or the solver finds no finite machine.
+pub fn train(rows: &[Vec<f64>], labels: &[bool], settings: &Settings) -> Result<Machine> {
+    let counts = checked(rows, labels, settings)?;
+    let prices = prices(settings.c, counts);
+    let machine = if rows.len() <= MOST_FOR_LINFA {
+        linfa_solver::solve(rows, labels, settings, prices)?
+    } else {
+        libsvm_solver::solve(rows, labels, settings, prices, libsvm_solver::TOLERANCE)
+    };
+    let finite = machine.offset.is_finite() && machine.weights.iter().all(|w| w.is_finite());
+    if !finite {
+        let accepted = "a set that the solver can separate with finite weights";
+        return Err(Error::invalid("machine", "weight", "not finite", accepted));
+    }
+    Ok(machine)
+}
+
+/// A standardised row with [`SUPPORT_DIGITS`].
+fn rounded(row: &[f64]) -> Vec<f64> {
+    let ones = 10_f64.powi(SUPPORT_DIGITS);
+    row.iter().map(|z| (z * ones).round() / ones).collect()
+}
+
+/// Prices C of successes and of failures, given how many of both there are.
+pub(super) fn prices(c: f64, (successes, failures): (usize, usize)) -> [f64; 2] {
+    let count = (successes + failures) as f64;
+    [successes, failures].map(|k| c * count / (2.0 * k as f64))
+}
+
+/// Counts of successes and failures of a set that can be trained on.
+pub(super) fn checked(
+    rows: &[Vec<f64>],
+    labels: &[bool],
+    settings: &Settings,
+) -> Result<(usize, usize)> {
+    let place = "training set";
+    for (field, value) in [("C", settings.c), ("gamma", settings.gamma)] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(Error::invalid("settings", field, value, "above 0, finite"));
+        }
+    }
+    let width = rows.first().map_or(0, Vec::len);
+    let sound = |row: &Vec<f64>| row.len() == width && row.iter().all(|v| v.is_finite());
+    if rows.len() != labels.len() || width == 0 || !rows.iter().all(sound) {
+        let found = "not a finite number for every feature and a label for every row";
+        return Err(Error::invalid(place, "rows", found, "rows of one length"));
+    }
+    let successes = labels.iter().filter(|s| **s).count();
+    let failures = labels.len() - successes;
+    if successes.min(failures) < 2 {
+        let found = format!("{successes} times 1 and {failures} times 0");
+        let accepted = "each at least twice: a boundary needs both";
+        return Err(Error::invalid(place, "success", found, accepted));
+    }
+    Ok((successes, failures))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::preconditions::learning::metrics::metrics;
+    use crate::preconditions::learning::synthetic::rings;
+
+    fn settings(kernel: Kernel) -> Settings {
+        Settings {
+            kernel,
+            c: 3.0,
+            gamma: 0.4,
+        }
+    }
+
+    #[test]
+    fn both_solvers_find_the_same_boundary() {
+        let (train, test) = (rings(500, 4, 1), rings(2000, 4, 2));
+        for kernel in Kernel::ALL {
+            let settings = settings(kernel);
+            let prices = prices(settings.c, train.counts());
+            let machines = [
+                linfa_solver::solve(&train.rows, &train.success, &settings, prices).unwrap(),
+                libsvm_solver::solve(
+                    &train.rows,
+                    &train.success,
+                    &settings,
+                    prices,
+                    libsvm_solver::TOLERANCE,
+                ),
+            ];
+            assert_ne!(machines[0].solver, machines[1].solver);
+            let balanced = machines.map(|machine| {
+                let score = |row: &Vec<f64>| machine.score(row) >= 0.0;
+                let predicted: Vec<bool> = test.rows.iter().map(score).collect();
+                metrics(&predicted, &test.success).balanced_accuracy
+            });
+            assert!((balanced[0] - balanced[1]).abs() < 0.01, "{balanced:?}");
+            let least = if kernel == Kernel::Linear { 0.3 } else { 0.9 };
+            assert!(balanced[0] > least, "{kernel}: {balanced:?}");
+        }
+    }
+
+    #[test]
+    fn names_are_read_and_unknown_ones_are_refused() {
+        for kernel in Kernel::ALL {
+            assert_eq!(kernel.to_string().parse::<Kernel>().unwrap(), kernel);
+            assert_eq!(Kernel::allowed(kernel.name()).unwrap(), [kernel]);
+        }
+        assert_eq!(Kernel::allowed("auto").unwrap(), Kernel::ALL);
+        let told = Kernel::allowed("poly4").unwrap_err().to_string();
+        assert!(told.contains("auto, linear, poly2, poly3, rbf"), "{told}");
+    }
+
+    #[test]
+    fn unlearnable_sets_are_refused() {
+        let good = rings(40, 2, 1);
+        let told = |rows: &[Vec<f64>], labels: &[bool], settings: &Settings| {
+            train(rows, labels, settings).unwrap_err().to_string()
+        };
+        let usual = settings(Kernel::Poly2);
+        let found = told(&good.rows, &[true; 40], &usual);
+        assert!(found.contains("40 times 1 and 0 times 0"), "{found}");
+        let mut rows = good.rows.clone();
+        rows[7][1] = f64::NAN;
+        assert!(told(&rows, &good.success, &usual).contains("not a finite number"));
+        let bad = Settings { c: 0.0, ..usual };
+        assert!(told(&good.rows, &good.success, &bad).contains("C is 0"));
+        assert!(train(&good.rows, &good.success, &usual).is_ok());
+    }
+
+    proptest! {
+        #[test]
+        fn the_polynomial_equals_the_kernel_sum(
+            width in 1_usize..6,
+            numbers in proptest::collection::vec(-3.0..3.0_f64, 60),
+            gamma in 0.01..2.0_f64,
+            kernel in 0_usize..3,
+        ) {
+            let rows: Vec<Vec<f64>> = numbers.chunks_exact(width).map(<[f64]>::to_vec).collect();
+            let (z, support) = rows.split_last().unwrap();
+            let machine = Machine {
+                kernel: Kernel::ALL[kernel],
+                gamma,
+                support: support.to_vec(),
+                weights: support.iter().map(|x| x[0] - 0.3).collect(),
+                offset: numbers[1],
+                solver: "none",
+            };
+            prop_assert!(machine.collapse().is_some());
+            let found = machine.decision().value(z);
+            let size: f64 = support.iter().zip(&machine.weights)
+                .map(|(x, w)| (w * machine.kernel.value(gamma, x, z)).abs()).sum();
+            prop_assert!((found - machine.score(z)).abs() <= 1e-9 * (1.0 + size));
+        }
+    }
+
+    #[test]
+    fn a_radial_kernel_does_not_collapse() {
+        let set = rings(60, 2, 1);
+        let machine = train(&set.rows, &set.success, &settings(Kernel::Rbf)).unwrap();
+        assert_eq!(machine.collapse(), None);
+        let decision = machine.decision();
+        for z in &set.rows {
+            assert!((decision.value(z) - machine.score(z)).abs() < 1e-3);
+        }
+    }
+}

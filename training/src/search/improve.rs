@@ -1,0 +1,240 @@
+//! Searches for better numbers of a controller of a repertoire.
+//!
+//! skill → exercise, dimensions → CMA-ES, scores through the journal → controller file.
+//!
+//! The output is written at every improvement, the journal after every generation, so that a search
+//! that is ended in any way has lost one generation at most and can be gone on with: it then finds
+//! what it would have found.
+
+#[cfg(test)]
+mod tests;
+
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use aplomb_controllers::kinds::fall::FallSpec;
+use aplomb_controllers::kinds::pose::PoseSpec;
+use aplomb_controllers::kinds::step::StepSpec;
+use aplomb_framework::control::{ControllerFile, Spec};
+use aplomb_framework::input::{Error, Result, Source, write_atomically};
+
+use crate::exercise::skill::Skill;
+use crate::exercise::{Drill, Exercise, Score, Task};
+use crate::search::cma_es::{Best, Search, minimise, population};
+use crate::search::journal::{Journal, beside};
+use crate::search::tune::{Tunable, at, line_of, point_of, text_of};
+
+/// The kinds of controllers that can be searched.
+pub const KINDS: [&str; 3] = [
+    <PoseSpec as Spec>::KIND,
+    <StepSpec as Spec>::KIND,
+    <FallSpec as Spec>::KIND,
+];
+
+/// How to search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plan<'a> {
+    /// Ends with the generation that reaches this many evaluations.
+    pub evaluations: usize,
+    /// Starts of the exercise.
+    pub starts: usize,
+    /// Fixes everything random.
+    pub seed: u64,
+    /// Initial standard deviation, relative to the numbers' ranges.
+    pub sigma: f64,
+    /// Where the best controller is written.
+    pub out: &'a Path,
+    /// Goes on with the journal beside the output instead of beginning anew.
+    pub resume: bool,
+}
+
+/// What a search has found so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Found {
+    /// Evaluations so far.
+    pub evaluations: usize,
+    /// Starts of the exercise: what was asked for, or fewer.
+    pub starts: usize,
+    /// How the controller did with the numbers of its file.
+    pub start: Score,
+    /// How the best did.
+    pub best: Score,
+}
+
+/// What a search is at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stage {
+    /// It has made so many starts.
+    Gathering(usize),
+    /// It has finished the first evaluation or a generation.
+    Searching(Found),
+}
+
+/// Searches from the numbers of the skill's file. `watch` may end it at any stage. None if it was
+/// ended before the first evaluation.
+///
+/// # Errors
+/// A controller of another kind or without a task; an output that cannot be written; on resuming a
+/// journal that is missing or of another search.
+pub fn improve(
+    skill: &Skill,
+    plan: Plan<'_>,
+    watch: impl FnMut(Stage) -> ControlFlow<()>,
+) -> Result<Option<Found>> {
+    check(skill)?;
+    let kind = skill.kind();
+    if kind == <PoseSpec as Spec>::KIND {
+        search::<PoseSpec>(skill, plan, watch)
+    } else if kind == <StepSpec as Spec>::KIND {
+        search::<StepSpec>(skill, plan, watch)
+    } else {
+        search::<FallSpec>(skill, plan, watch)
+    }
+}
+
+/// Refuses a controller that cannot be searched.
+///
+/// # Errors
+/// [`Error::Invalid`] with what is accepted.
+pub fn check(skill: &Skill) -> Result<()> {
+    if !KINDS.contains(&skill.kind()) {
+        let (problem, accepted) = (skill.kind(), KINDS.join(", "));
+        return Err(Error::invalid(skill.name(), "kind", problem, accepted));
+    }
+    Task::of(skill).map(|_| ())
+}
+
+fn search<T: Tunable>(
+    skill: &Skill,
+    plan: Plan<'_>,
+    mut watch: impl FnMut(Stage) -> ControlFlow<()>,
+) -> Result<Option<Found>> {
+    let (model, contract) = (&skill.model, &skill.contract);
+    let file = skill.file.parameters::<T>(skill.name())?;
+    let search = Search {
+        sigma: plan.sigma,
+        population: population(file.dimensions(model).len()),
+        evaluations: plan.evaluations,
+        seed: plan.seed,
+    };
+    let (journal, base) = open(skill, file, plan, search)?;
+    let mind = skill
+        .mind
+        .with_replaced(base.clone().build(contract.clone(), model)?)?;
+    let skill = Skill {
+        mind,
+        ..skill.clone()
+    };
+    let mut ended = false;
+    let exercise = Exercise::new(&skill, Drill::training(plan.starts, plan.seed), |found| {
+        let next = watch(Stage::Gathering(found));
+        ended = next.is_break();
+        next
+    })?;
+    if ended {
+        return Ok(None);
+    }
+    if exercise.starts() == 0 {
+        let problem = "met in none of the situations that were tried";
+        let accepted = "one that heaps on the floor or falls come to under the repertoire";
+        return Err(Error::invalid(
+            skill.name(),
+            "precondition",
+            problem,
+            accepted,
+        ));
+    }
+    let measure = |point: &[f64]| {
+        let built = Spec::build(at(&base, model, point), contract.clone(), model);
+        let mind = built.and_then(|controller| skill.mind.with_replaced(controller));
+        mind.map_or(Score::WORST, |mind| exercise.judge(&mind))
+    };
+    let start = point_of(&base, model);
+    let first = measure(&start);
+    if journal.known(&start).is_some_and(|known| known != first) {
+        let place = beside(plan.out).display().to_string();
+        let accepted =
+            "one of this version of the program: its first controller now does otherwise";
+        return Err(Error::invalid(
+            place,
+            "journal",
+            "of another version",
+            accepted,
+        ));
+    }
+    journal.score(&start, || first);
+    let (mut found, mut written) = (None, Ok(()));
+    let mut least = f64::INFINITY;
+    let cost = |point: &[f64]| journal.score(point, || measure(point)).cost;
+    minimise(&start, search, cost, |evaluations, best: &Best| {
+        written = journal.finish_generation();
+        let so_far = Found {
+            evaluations,
+            starts: exercise.starts(),
+            start: first,
+            best: journal.known(&best.point).unwrap_or(first),
+        };
+        found = Some(so_far);
+        if written.is_ok() && best.cost < least {
+            least = best.cost;
+            let spec = at(&base, model, &best.point);
+            let text = text_of(&skill.file.contract, &spec, &comment(&plan, &so_far));
+            written = write_atomically(plan.out, text.as_bytes());
+        }
+        if written.is_err() {
+            return ControlFlow::Break(());
+        }
+        watch(Stage::Searching(so_far))
+    });
+    written.map(|()| found)
+}
+
+/// The journal, new or gone on with, and the numbers that the search begins with.
+fn open<T: Tunable>(
+    skill: &Skill,
+    file: T,
+    plan: Plan<'_>,
+    search: Search,
+) -> Result<(Journal, T)> {
+    let header = vec![
+        ("controller", skill.name().to_owned()),
+        ("seed", plan.seed.to_string()),
+        ("starts", plan.starts.to_string()),
+        ("sigma", plan.sigma.to_string()),
+        ("population", search.population.to_string()),
+        ("surroundings", format!("{:016x}", skill.surroundings)),
+    ];
+    let path = beside(plan.out);
+    let now = line_of(&skill.file.contract, &file);
+    if !plan.resume {
+        return Ok((Journal::begin(&path, &header, &now)?, file));
+    }
+    let (journal, before) = Journal::resume(&path, &header)?;
+    if before == now {
+        return Ok((journal, file));
+    }
+    // The output may well be the controller's own file, which by now has better numbers.
+    let written = Source::read(plan.out).and_then(|source| line_in::<T>(&source));
+    if written.is_ok_and(|written| written == now) {
+        let source = Source::new(path.display().to_string(), before);
+        let first: ControllerFile = source.parse()?;
+        return Ok((journal, first.parameters(&source.origin)?));
+    }
+    let accepted = "the controller as it was when the search began";
+    let place = path.display().to_string();
+    Err(Error::invalid(place, "controller", "another", accepted))
+}
+
+fn line_in<T: Tunable>(source: &Source) -> Result<String> {
+    let file: ControllerFile = source.parse()?;
+    let spec = file.parameters::<T>(&source.origin)?;
+    Ok(line_of(&file.contract, &spec))
+}
+
+/// Written over the controller.
+fn comment(plan: &Plan<'_>, found: &Found) -> String {
+    format!(
+        "Optimised by CMA-ES over {} starts in varied worlds, seed {}, {} evaluations: {} reached, cost {:.4}.",
+        found.starts, plan.seed, found.evaluations, found.best.reached, found.best.cost
+    )
+}
