@@ -28,12 +28,12 @@ fn main() -> Result<()> {
         colliders.insert_with_parent(shape, handle, &mut bodies);
     }
 
-    // The character, its senses and its mind.
+    // The character, its senses and its supervisor.
     let model = Model::load("humanoid")?;
     let start = State::standing(&model);
     let body = Body::spawn(&model, &start, 0, &mut bodies, &mut colliders, &mut joints);
     let mut sensors = Sensors::new(&model, 9.81);
-    let mut mind = repertoire::load("humanoid", &aplomb::controllers::registry(), &model)?;
+    let mut supervisor = repertoire::load("humanoid", &aplomb::controllers::registry(), &model)?;
     let mut torques = vec![0.0; model.joint_count()];
 
     let (mut shown, mut hit) = (String::new(), false);
@@ -55,9 +55,9 @@ fn main() -> Result<()> {
         );
         sensors.time = f64::from(step + 1) * dt;
         body.sense(&bodies, &colliders, &narrow_phase, dt, &mut sensors);
-        mind.act(&sensors, &mut torques);
+        supervisor.act(&sensors, &mut torques);
         body.actuate(&mut bodies, &torques);
-        let active = mind.active().expect("something is always active");
+        let active = supervisor.active().expect("something is always active");
         let line = format!("{active:8} {}", sensors.posture.name());
         if line != shown {
             println!("{:6.3} s  {line}", sensors.time);

@@ -1,6 +1,6 @@
 //! Whatever happens to the humanoid, it ends on its feet: the scenarios of `tests/scenarios/recovery`, each with what it expects.
 
-use aplomb::framework::events::EventKind;
+use aplomb::framework::events::{EventKind, Reason};
 use aplomb::framework::run::Simulation;
 use aplomb::framework::scenario::Scenario;
 
@@ -40,19 +40,19 @@ fn a_rise_that_does_not_get_going_gives_up_within_two_seconds() {
         scenario.settings.torque = 0.2;
         let mut run = Simulation::new(&scenario, &registry).unwrap();
         run.run(scenario.duration);
-        let switches: Vec<(f64, &str, &str)> = run
+        let switches: Vec<(f64, &str, &Reason)> = run
             .events()
             .iter()
             .filter_map(|event| match &event.kind {
-                EventKind::Switch { to, why, .. } => Some((event.time, to.as_ref(), why.as_ref())),
+                EventKind::Switch { to, reason, .. } => Some((event.time, to.as_ref(), reason)),
                 _ => None,
             })
             .collect();
         let mut lasted = Vec::new();
         for pair in switches.windows(2) {
-            let [(begun, active, _), (left, _, why)] = [pair[0], pair[1]];
+            let [(begun, active, _), (left, _, reason)] = [pair[0], pair[1]];
             if active == first {
-                assert!(why.starts_with("failed"), "{first}: {why}");
+                assert!(matches!(reason, Reason::Failed(_)), "{first}: {reason}");
                 lasted.push(left - begun);
             }
         }

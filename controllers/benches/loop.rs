@@ -125,8 +125,8 @@ fn pool_of_eight(model: &Arc<Model>) -> Supervisor {
 #[divan::bench(sample_size = 1000)]
 fn arbitration_of_eight(bencher: Bencher) {
     let now = pushed();
-    let mind = pool_of_eight(&now.model);
-    bencher.bench_local(|| mind.arbitrate(black_box(&now)));
+    let supervisor = pool_of_eight(&now.model);
+    bencher.bench_local(|| supervisor.arbitrate(black_box(&now)));
 }
 
 /// A polynomial of the second degree over twenty features of the humanoid.
@@ -216,7 +216,7 @@ fn step_at_rest_in_the_air(bencher: Bencher) {
         "(name: \"r\", fallback: \"rest\", controllers: [File(\"skills/rest.ron\")])";
     let model = Model::load("humanoid").unwrap();
     let source = Source::new("r.ron", REST);
-    let mind = repertoire::build(&source, None, &registry(), &model).unwrap();
-    let start = Simulation::with_cast(&scenario(0.0, 50.0), vec![(model, mind)]).unwrap();
+    let supervisor = repertoire::build(&source, None, &registry(), &model).unwrap();
+    let start = Simulation::with_cast(&scenario(0.0, 50.0), vec![(model, supervisor)]).unwrap();
     run(bencher, &start);
 }

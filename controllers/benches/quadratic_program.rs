@@ -39,7 +39,7 @@ fn problem(n: usize, rows: usize, active: usize) -> Problem {
                 .push_row(-slack)
                 .fill_with(|| rng.gen_range(-1.0..1.0));
         }
-        if solver.solve(&p) == Outcome::Optimal && solver.iterations() == 3 + active {
+        if solver.solve(&p) == Solution::Optimal && solver.iterations() == 3 + active {
             return p;
         }
     }

@@ -38,7 +38,7 @@ fn wall() -> Prop {
 #[test]
 fn sensing_and_thinking_allocate_nothing() {
     let model = Model::load("humanoid").unwrap();
-    let mut mind = repertoire::load("humanoid", &registry(), &model).unwrap();
+    let mut supervisor = repertoire::load("humanoid", &registry(), &model).unwrap();
     let mut world = World::new(Settings::default());
     world.spawn(&model, &State::standing(&model));
     world.add_prop(&wall());
@@ -49,7 +49,7 @@ fn sensing_and_thinking_allocate_nothing() {
         let sensing = measure(|| {
             world.sense(0);
         });
-        let thinking = measure(|| mind.act(&world.characters()[0].sensors, &mut torques));
+        let thinking = measure(|| supervisor.act(&world.characters()[0].sensors, &mut torques));
         let acting = measure(|| world.actuate(0, &torques));
         let gripping = measure(|| world.grip(0, true));
         let stepping = measure(|| world.step());
@@ -59,7 +59,7 @@ fn sensing_and_thinking_allocate_nothing() {
             engine += stepping.count_total;
         }
     }
-    assert_eq!(mind.active(), Some("balance"));
+    assert_eq!(supervisor.active(), Some("balance"));
     assert_eq!(ours, 0, "sense, act and grip");
     let [most, steps_most] = ENGINE.map(|n| 1000 * n);
     assert!(
@@ -86,14 +86,14 @@ fn asking_what_was_learned_allocates_nothing() {
     );
     let registry = registry().with_file(FILE, text.leak());
     let pool = Source::new("p.ron", POOL);
-    let mind = repertoire::build(&pool, None, &registry, &model).unwrap();
+    let supervisor = repertoire::build(&pool, None, &registry, &model).unwrap();
     let mut world = World::new(Settings::default());
     world.spawn(&model, &State::standing(&model));
     world.detect_contacts();
     let now = world.sense(0);
-    let bid = mind.bids(now)[0].suitability;
+    let bid = supervisor.bids(now)[0].suitability;
     assert!(bid > 5.0 && bid < 10.0, "by its probability: {bid}");
-    let polling = measure(|| assert_eq!(mind.arbitrate(now), 0));
+    let polling = measure(|| assert_eq!(supervisor.arbitrate(now), 0));
     assert_eq!(polling.count_total, 0);
 }
 

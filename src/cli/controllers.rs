@@ -78,7 +78,7 @@ impl ControllersArgs {
             .into_iter()
             .map(|f| (f.contract.name, f.kind))
             .collect();
-        let pool = simulation.actors()[0].mind.controllers();
+        let pool = simulation.actors()[0].supervisor.controllers();
         let rows: Vec<Row> = pool.map(|c| row(c.contract(), &kinds)).collect();
         if self.json {
             write_json(out, &rows)?;

@@ -6,7 +6,7 @@ use aplomb::framework::events::{Bid, Event, EventKind, Found, Reason, Unmet};
 use aplomb::framework::run::{Outcome, Simulation};
 use aplomb::framework::scenario::Scenario;
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
 /// One run.
 #[derive(Debug, Serialize)]
@@ -91,11 +91,9 @@ fn clause(fields: &mut Map<String, Value>, unmet: &Unmet) {
 }
 
 fn bid(bid: &Bid) -> Value {
-    json!({
-        "controller": bid.controller,
-        "suitability": bid.suitability,
-        "refusal": bid.refusal.as_ref().map(ToString::to_string),
-    })
+    let mut value = serde_json::to_value(bid).unwrap_or_default();
+    value["refusal"] = bid.refusal.as_ref().map(ToString::to_string).into();
+    value
 }
 
 impl From<Outcome> for EndJson {

@@ -167,7 +167,8 @@ impl RobustnessArgs {
             }
             bar.set_position(before + world / 2);
             for ((row, exercise), skill) in rows.iter_mut().zip(exercises).zip(&skills) {
-                let (starts, reached) = (exercise.starts(), exercise.judge(&skill.mind).reached);
+                let (starts, reached) =
+                    (exercise.starts(), exercise.judge(&skill.supervisor).reached);
                 row.cells.push(Cell {
                     friction,
                     torque,

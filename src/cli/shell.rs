@@ -154,7 +154,7 @@ impl Shell {
 
     fn help(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{HELP}\n\nCommands:")?;
-        for controller in self.simulation.actors()[0].mind.controllers() {
+        for controller in self.simulation.actors()[0].supervisor.controllers() {
             for answer in &controller.contract().commands {
                 writeln!(out, "  {}", usage(answer))?;
             }
@@ -172,10 +172,10 @@ impl Shell {
     }
 
     fn explain(&self, out: &mut dyn Write) -> io::Result<()> {
-        let mind = &self.simulation.actors()[0].mind;
-        let active = mind.active().unwrap_or("nothing yet");
+        let supervisor = &self.simulation.actors()[0].supervisor;
+        let active = supervisor.active().unwrap_or("nothing yet");
         writeln!(out, "{:9.3} s  active: {active}", self.simulation.time())?;
-        let bids = mind.bids(self.simulation.sensors(0));
+        let bids = supervisor.bids(self.simulation.sensors(0));
         timeline::print_bids(out, &bids, "             ")
     }
 

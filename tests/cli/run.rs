@@ -46,7 +46,7 @@ fn a_run_is_told_as_json() {
     assert!(run["peak_torque"]["hip_r"].as_f64().unwrap() > 0.0);
     let events = run["events"].as_array().unwrap();
     let push = value!({"t": 0.5, "kind": "push", "link": "torso", "impulse": -10.0});
-    let start = value!({"t": 0.0, "kind": "switch", "from": null, "to": "balance", "why": "start"});
+    let start = value!({"t": 0.0, "kind": "switch", "from": null, "to": "balance", "role": "balance", "why": "start"});
     let command = value!({"t": 0.2, "kind": "command", "text": "rest", "accepted": true});
     for expected in [&push, &start, &command] {
         assert!(events.contains(expected), "{expected}");

@@ -19,7 +19,7 @@ fn ill_conditioned_cost() {
         random_cost(&mut rng, &mut p, n / 2, floor);
         random_rows(&mut rng, &mut p, me, mi, (0.0, 0.5));
         let mut s = ActiveSet::new(n, me, mi);
-        assert_eq!(s.solve(&p), Outcome::Optimal, "trial {trial}");
+        assert_eq!(s.solve(&p), Solution::Optimal, "trial {trial}");
         let residual = kkt(&p, &s);
         worst = worst.max(residual);
         assert!(residual < 1e-8, "trial {trial} {n} {me} {mi}: {residual}");
@@ -44,7 +44,7 @@ fn distant_unconstrained_minimiser() {
             p.inequalities.push_row(-1.0)[i] = -1.0;
         }
         let mut s = ActiveSet::new(n, 3, 2 * n + 10);
-        assert_eq!(s.solve(&p), Outcome::Optimal, "trial {trial}");
+        assert_eq!(s.solve(&p), Solution::Optimal, "trial {trial}");
         let residual = kkt(&p, &s);
         worst = worst.max(residual);
         assert!(residual < 1e-8, "trial {trial} {n} {floor}: {residual}");
@@ -74,7 +74,7 @@ fn apex_of_cones() {
             }
         }
         let mut s = ActiveSet::new(n, 3, 60);
-        assert_eq!(s.solve(&p), Outcome::Optimal, "trial {trial}");
+        assert_eq!(s.solve(&p), Solution::Optimal, "trial {trial}");
         apexes += usize::from(norm(s.x()) < 1e-9 * size);
         let residual = kkt(&p, &s);
         worst = worst.max(residual);
@@ -109,7 +109,7 @@ fn degenerate_vertices() {
             }
         }
         let mut s = ActiveSet::new(n, 4, mi + 20);
-        assert_eq!(s.solve(&p), Outcome::Optimal, "trial {trial}");
+        assert_eq!(s.solve(&p), Solution::Optimal, "trial {trial}");
         let residual = kkt(&p, &s);
         worst = worst.max(residual);
         assert!(residual < 1e-8, "trial {trial}: {residual}");
@@ -144,7 +144,7 @@ fn nearly_dependent_rows() {
             rows.push_row(at).copy_from_slice(&row);
         }
         let mut s = ActiveSet::new(n, 2, 40);
-        if s.solve(&p) == Outcome::Optimal {
+        if s.solve(&p) == Solution::Optimal {
             worst = worst.max(kkt(&p, &s));
         } else {
             others += 1;

@@ -73,11 +73,11 @@ fn agrees_with_clarabel() {
         let (status, x) = clarabel(&p);
         match status {
             SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
-                assert_eq!(outcome, Outcome::Infeasible, "trial {trial}");
+                assert_eq!(outcome, Solution::Infeasible, "trial {trial}");
                 infeasible += 1;
             }
             _ => {
-                assert_eq!(outcome, Outcome::Optimal, "trial {trial} {status:?}");
+                assert_eq!(outcome, Solution::Optimal, "trial {trial} {status:?}");
                 optimal += 1;
                 let (ours, theirs) = (objective(&p, s.x()), objective(&p, &x));
                 let df = (ours - theirs).abs() / theirs.abs().max(1.0);
@@ -116,7 +116,7 @@ fn closed_form() {
     p.equalities.push_row(2.0).fill(1.0);
     p.inequalities.push_row(-0.5)[0] = -1.0;
     let mut s = ActiveSet::new(2, 1, 1);
-    assert_eq!(s.solve(&p), Outcome::Optimal);
+    assert_eq!(s.solve(&p), Solution::Optimal);
     assert!((s.x()[0] - 0.5).abs() < 1e-14 && (s.x()[1] - 1.5).abs() < 1e-14);
     assert!((s.equality_multipliers()[0] - 0.5).abs() < 1e-14);
     assert!((s.inequality_multipliers()[0] - 2.0).abs() < 1e-14);
@@ -145,7 +145,7 @@ fn solves_without_allocation_and_without_memory() {
             q.inequalities.push_row(0.0);
         });
         assert_eq!(filling.count_total, 0);
-        let mut outcomes = [Outcome::IterationLimit; 2];
+        let mut outcomes = [Solution::IterationLimit; 2];
         let solving = measure(|| outcomes = [s.solve(&p), t.solve(&p)]);
         assert_eq!(solving.count_total, 0);
         let [outcome, cloned] = outcomes;

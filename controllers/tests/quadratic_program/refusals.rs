@@ -12,7 +12,7 @@ fn infeasible_pairs() {
     let mut rng = ChaCha8Rng::seed_from_u64(4);
     for _ in 0..500 {
         let n = rng.gen_range(2..25);
-        for (gap, expected) in [(1e-4, Outcome::Optimal), (-1e-4, Outcome::Infeasible)] {
+        for (gap, expected) in [(1e-4, Solution::Optimal), (-1e-4, Solution::Infeasible)] {
             let mut p = Problem::new(n, 2, 30);
             random_cost(&mut rng, &mut p, n, 1e-2);
             random_rows(&mut rng, &mut p, 0, 10, (0.0, 0.5));
@@ -43,12 +43,12 @@ fn redundant_equalities() {
         p.equalities.push_row(rhs).copy_from_slice(&mix);
         p.equalities.push_row(0.0);
         let mut s = ActiveSet::new(n, 6, 20);
-        assert_eq!(s.solve(&p), Outcome::Optimal, "trial {trial}");
+        assert_eq!(s.solve(&p), Solution::Optimal, "trial {trial}");
         assert!(kkt(&p, &s) < 1e-8);
         p.equalities
             .push_row(rhs + 1e-3 * norm(&mix))
             .copy_from_slice(&mix);
-        assert_eq!(s.solve(&p), Outcome::Infeasible, "trial {trial}");
+        assert_eq!(s.solve(&p), Solution::Infeasible, "trial {trial}");
     }
 }
 
@@ -60,7 +60,7 @@ fn invalid_input_is_refused() {
     random_cost(&mut rng, &mut p, n, 1e-2);
     random_rows(&mut rng, &mut p, 2, 10, (0.0, 0.5));
     let mut s = ActiveSet::new(n, 2, 10);
-    assert_eq!(s.solve(&p), Outcome::Optimal);
+    assert_eq!(s.solve(&p), Solution::Optimal);
     for bad in [
         f64::NAN,
         f64::INFINITY,
@@ -88,35 +88,35 @@ fn invalid_input_is_refused() {
             let unbounded = place == n * n + n + 2 && bad == -f64::INFINITY;
             if !bad.is_finite() && read && !unbounded {
                 let expected = if place < n * n + n {
-                    Outcome::NotConvex
+                    Solution::NotConvex
                 } else {
-                    Outcome::Infeasible
+                    Solution::Infeasible
                 };
                 assert_eq!(outcome, expected, "{bad} at {place}");
             }
         }
     }
     p.h[3] = 100.0;
-    assert_eq!(s.solve(&p), Outcome::NotConvex);
+    assert_eq!(s.solve(&p), Solution::NotConvex);
     p.clear();
-    assert_eq!(s.solve(&p), Outcome::NotConvex);
+    assert_eq!(s.solve(&p), Solution::NotConvex);
     for i in 0..n - 1 {
         p.h[i * n + i] = 1.0;
     }
-    assert_eq!(s.solve(&p), Outcome::NotConvex);
+    assert_eq!(s.solve(&p), Solution::NotConvex);
     p.h.pop();
-    assert_eq!(s.solve(&p), Outcome::NotConvex);
+    assert_eq!(s.solve(&p), Solution::NotConvex);
     p.n = usize::MAX;
-    assert_eq!(s.solve(&p), Outcome::NotConvex);
+    assert_eq!(s.solve(&p), Solution::NotConvex);
     let mut empty = Problem::new(0, 1, 1);
-    assert_eq!(s.solve(&empty), Outcome::Optimal);
+    assert_eq!(s.solve(&empty), Solution::Optimal);
     empty.inequalities.push_row(1.0);
-    assert_eq!(s.solve(&empty), Outcome::Infeasible);
+    assert_eq!(s.solve(&empty), Solution::Infeasible);
     // Singular H of random rows.
     for _ in 0..200 {
         let mut p = Problem::new(12, 0, 0);
         random_cost(&mut rng, &mut p, 9, 0.0);
-        assert_eq!(ActiveSet::new(12, 0, 0).solve(&p), Outcome::NotConvex);
+        assert_eq!(ActiveSet::new(12, 0, 0).solve(&p), Solution::NotConvex);
     }
 }
 
@@ -145,7 +145,7 @@ fn random_bytes_end() {
             let rhs = v(&mut rng);
             p.inequalities.push_row(rhs).fill_with(|| v(&mut rng));
         }
-        if s.solve(&p) == Outcome::Optimal {
+        if s.solve(&p) == Solution::Optimal {
             assert!(s.x().iter().all(|x| x.is_finite()));
         }
     }

@@ -23,8 +23,8 @@ fn every_character_stands_and_takes_a_push() {
                 over: 0.1,
                 character: 0,
             });
-            let mind = repertoire::load(name, &registry(), &model).unwrap();
-            let cast = vec![(model.clone(), mind)];
+            let supervisor = repertoire::load(name, &registry(), &model).unwrap();
+            let cast = vec![(model.clone(), supervisor)];
             let mut run = Simulation::with_cast(&scenario, cast).unwrap();
             while run.time() < scenario.duration {
                 run.step();

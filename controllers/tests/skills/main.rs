@@ -10,7 +10,7 @@ use std::sync::Arc;
 use aplomb_controllers::registry;
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Controller, ControllerFile};
-use aplomb_framework::events::{Event, EventKind};
+use aplomb_framework::events::{Event, EventKind, Reason};
 use aplomb_framework::input::Source;
 use aplomb_framework::run::Simulation;
 
@@ -32,15 +32,15 @@ fn built(text: &str) -> Result<Box<dyn Controller>, String> {
 }
 
 /// When which controllers took over, s, and why.
-fn switches(run: &Simulation) -> Vec<(f64, &str, &str)> {
+fn switches(run: &Simulation) -> Vec<(f64, &str, &Reason)> {
     let switch = |event| match event {
         &Event {
             time,
             kind: EventKind::Switch {
-                ref to, ref why, ..
+                ref to, ref reason, ..
             },
             ..
-        } => Some((time, to.as_str(), why.as_str())),
+        } => Some((time, to.as_str(), reason)),
         _ => None,
     };
     run.events().iter().filter_map(switch).collect()

@@ -2,6 +2,7 @@
 
 use aplomb_controllers::registry;
 use aplomb_framework::control::repertoire;
+use aplomb_framework::events::Reason;
 use aplomb_framework::input::Source;
 use aplomb_framework::run::Simulation;
 use aplomb_framework::scenario::Scenario;
@@ -25,9 +26,9 @@ fn waves(states: &str) -> Simulation {
     );
     let model = humanoid();
     let source = Source::new("waving", text);
-    let mind = repertoire::build(&source, None, &registry(), &model).unwrap();
+    let supervisor = repertoire::build(&source, None, &registry(), &model).unwrap();
     let scenario = Scenario::standing("humanoid", 1.0);
-    let mut run = Simulation::with_cast(&scenario, vec![(model, mind)]).unwrap();
+    let mut run = Simulation::with_cast(&scenario, vec![(model, supervisor)]).unwrap();
     run.run(0.8);
     run
 }
@@ -40,9 +41,13 @@ fn a_state_that_ends_short_of_what_it_expects_fails_and_says_so() {
             r#"(pose: {{"shoulder_r": 0.2}}, duration: 0.3, expects: {first}),
             (pose: {{"shoulder_r": 0.6}}, duration: 0.3, expects: {second})"#
         ));
-        let (time, _, why) = switches(&run)[1];
-        let told = format!("failed: after state {after}: expected angle.shoulder_r ≥ 2 (is ");
-        assert!(why.starts_with(&told), "{why}");
+        let (time, _, reason) = switches(&run)[1];
+        let Reason::Failed(unmet) = reason else {
+            panic!("{reason}");
+        };
+        let clause = format!("after state {after}: expected angle.shoulder_r ≥ 2");
+        assert_eq!(unmet.clause, clause);
+        assert!(unmet.value().is_some_and(|v| v < 2.0), "{unmet}");
         let due = 0.3 * f64::from(after + 1);
         assert!((time - due).abs() < 0.005, "{time}");
     }

@@ -1,7 +1,7 @@
 //! Protective steps.
 
 use aplomb_controllers::registry;
-use aplomb_framework::events::EventKind;
+use aplomb_framework::events::{EventKind, Reason, Unmet};
 use aplomb_framework::run::Simulation;
 use aplomb_framework::scenario::Scenario;
 
@@ -46,7 +46,10 @@ fn a_push_that_balance_does_not_take_ends_on_parallel_feet_after_a_step() {
 fn feet_that_slid_apart_under_a_bow_are_closed_by_a_step() {
     let run = pushed(41.0, 0.6);
     let told = switches(&run);
-    let slid = |s: &(f64, &str, &str)| s.1 == "protective_step" && s.2.contains("feet_apart");
+    let slid = |s: &(f64, &str, &Reason)| {
+        let apart = |u: &Unmet| u.clause.contains("feet_apart");
+        s.1 == "protective_step" && matches!(s.2, Reason::Failed(u) if apart(u))
+    };
     assert!(told.iter().any(slid), "{told:?}");
     assert!(run.outcome(0).standing, "{told:?}");
     assert!(run.sensors(0).feet_apart() < PARALLEL, "{told:?}");

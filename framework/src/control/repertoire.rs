@@ -125,11 +125,11 @@ pub fn build(
         let source = part.source.clone();
         pool.push(registry.build(&source, &part.controller(), model)?);
     }
-    let mut mind = Supervisor::new(&file.name, pool, &file.fallback);
-    if let Err(Error::Invalid { place, field, .. }) = &mut mind {
+    let mut supervisor = Supervisor::new(&file.name, pool, &file.fallback);
+    if let Err(Error::Invalid { place, field, .. }) = &mut supervisor {
         *place = source.place(field);
     }
-    mind
+    supervisor
 }
 
 /// The controller files of a repertoire, in its order, as they stand: not built for any character.

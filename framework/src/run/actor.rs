@@ -1,4 +1,4 @@
-//! A character's mind and what a run has shown of it: whether it stands, has fallen, stood up again.
+//! A character's supervisor and what a run has shown of it: whether it stands, has fallen, stood up again.
 //!
 //! sensors, events of its supervisor → [`Actor`] → events, [`Outcome`].
 
@@ -10,11 +10,11 @@ use crate::sensing::{Posture, Sensors};
 /// s for which a character must stand to be called standing.
 pub const STANDING_FOR: f64 = 1.0;
 
-/// A character's mind and what is known of its run so far.
+/// A character's supervisor and what is known of its run so far.
 #[derive(Debug, Clone)]
 pub struct Actor {
     /// The supervisor of its repertoire.
-    pub mind: Supervisor,
+    pub supervisor: Supervisor,
     /// As of the last step, N·m.
     pub torques: Vec<f64>,
     /// Largest torque of each joint so far, as applied, N·m.
@@ -44,9 +44,9 @@ pub struct Outcome {
 }
 
 impl Actor {
-    pub(crate) fn new(mind: Supervisor, model: &Model) -> Self {
+    pub(crate) fn new(supervisor: Supervisor, model: &Model) -> Self {
         Self {
-            mind,
+            supervisor,
             torques: vec![0.0; model.joint_count()],
             peak_torque: vec![0.0; model.joint_count()],
             standing_since: None,
@@ -74,7 +74,7 @@ impl Actor {
                 kind,
             });
         };
-        for (_, kind) in self.mind.take_events() {
+        for (_, kind) in self.supervisor.take_events() {
             note(kind);
         }
         if now.stands() {
@@ -101,7 +101,7 @@ impl Actor {
     pub(crate) fn outcome(&self, now: &Sensors) -> Outcome {
         Outcome {
             standing: self.has_stood(now.time),
-            active: self.mind.active().unwrap_or_default().to_owned(),
+            active: self.supervisor.active().unwrap_or_default().to_owned(),
             posture: now.posture,
             com: now.com,
             com_velocity: now.com_velocity,

@@ -35,15 +35,15 @@ pub(crate) struct TimedInput {
 }
 
 impl TimedInput {
-    /// What is scheduled by the scenario to a character of this model and mind.
+    /// What is scheduled by the scenario to a character of this model and supervisor.
     ///
     /// # Errors
-    /// An unknown link or parameter, a malformed command or one that the mind does not answer to.
+    /// An unknown link or parameter, a malformed command or one that the supervisor does not answer to.
     pub(crate) fn new(
         event: &ScheduledInput,
         scenario: &Scenario,
         model: &Model,
-        mind: &Supervisor,
+        supervisor: &Supervisor,
     ) -> Result<Self> {
         match event {
             ScheduledInput::Push {
@@ -68,7 +68,7 @@ impl TimedInput {
             } => {
                 // A trial on a clone: commands that nobody answers to are found before the run.
                 let text = scenario.filled(text)?;
-                mind.clone().command(&text)?;
+                supervisor.clone().command(&text)?;
                 Ok(Self {
                     time: scenario.number(at)?,
                     character: *character,

@@ -1,4 +1,4 @@
-//! One run: world, minds, timed pushes and commands, events, digest, recording.
+//! One run: world, supervisors, timed pushes and commands, events, digest, recording.
 //!
 //! scenario → [`Simulation`] → events, [`Outcome`], trajectory. The same loop serves the program,
 //! rollouts, tests and drawings. A clone continues bit for bit.
@@ -23,13 +23,13 @@ use crate::world::World;
 pub fn tick<'a>(
     world: &'a mut World,
     character: usize,
-    mind: &mut dyn Controller,
+    supervisor: &mut dyn Controller,
     torques: &mut [f64],
 ) -> &'a Sensors {
     let now = world.sense(character);
-    mind.act(now, torques);
+    supervisor.act(now, torques);
     world.actuate(character, torques);
-    world.grip(character, mind.grips());
+    world.grip(character, supervisor.grips());
     &world.characters()[character].sensors
 }
 
@@ -56,13 +56,13 @@ impl Simulation {
         for role in &scenario.characters {
             let model = Model::load(&role.character)?;
             let repertoire = role.repertoire(&model);
-            let mind = repertoire::load(repertoire, registry, &model)?;
-            cast.push((model, mind));
+            let supervisor = repertoire::load(repertoire, registry, &model)?;
+            cast.push((model, supervisor));
         }
         Self::with_cast(scenario, cast)
     }
 
-    /// The same with characters and minds that were built elsewhere, one pair a character of the
+    /// The same with characters and supervisors that were built elsewhere, one pair a character of the
     /// scenario.
     ///
     /// # Errors
@@ -73,14 +73,17 @@ impl Simulation {
                 &scenario.name,
                 "characters",
                 cast.len(),
-                format!("one mind for each of the {}", scenario.characters.len()),
+                format!(
+                    "one supervisor for each of the {}",
+                    scenario.characters.len()
+                ),
             ));
         }
         let mut world = World::new(scenario.settings);
         let mut actors = Vec::with_capacity(cast.len());
-        for (role, (model, mind)) in scenario.characters.iter().zip(cast) {
+        for (role, (model, supervisor)) in scenario.characters.iter().zip(cast) {
             world.spawn(&model, &start_state(&model, &role.start)?);
-            actors.push(Actor::new(mind, &model));
+            actors.push(Actor::new(supervisor, &model));
         }
         for prop in &scenario.props {
             world.add_prop(&scenario.prop(prop)?);
@@ -119,8 +122,8 @@ impl Simulation {
     /// An unknown link, a malformed command or one that nobody answers to.
     pub fn schedule(&mut self, scenario: &Scenario, event: &ScheduledInput) -> Result<()> {
         let character = event.character();
-        let mind = &self.actors[character].mind;
-        let timed = TimedInput::new(event, scenario, self.model(character), mind)?;
+        let supervisor = &self.actors[character].supervisor;
+        let timed = TimedInput::new(event, scenario, self.model(character), supervisor)?;
         self.schedule.add(timed);
         Ok(())
     }
@@ -162,7 +165,7 @@ impl Simulation {
     /// # Errors
     /// A malformed command, or one that nobody answers to, with the nearest name.
     pub fn command(&mut self, character: usize, text: &str) -> Result<()> {
-        let given = self.actors[character].mind.command(text);
+        let given = self.actors[character].supervisor.command(text);
         given.inspect_err(|e| {
             let kind = EventKind::Command {
                 text: text.to_owned(),
@@ -215,7 +218,7 @@ impl Simulation {
     }
 
     fn controllers(&self, character: usize) -> Vec<String> {
-        let pool = self.actors[character].mind.controllers();
+        let pool = self.actors[character].supervisor.controllers();
         pool.map(|c| c.contract().name.clone()).collect()
     }
 
@@ -229,15 +232,15 @@ impl Simulation {
         &self.world
     }
 
-    /// The characters' minds.
+    /// The characters' supervisors.
     #[must_use]
     pub fn actors(&self) -> &[Actor] {
         &self.actors
     }
 
-    /// Gives a character another mind, which takes over in the next step.
-    pub fn set_mind(&mut self, character: usize, mind: Supervisor) {
-        self.actors[character].mind = mind;
+    /// Gives a character another supervisor, which takes over in the next step.
+    pub fn set_supervisor(&mut self, character: usize, supervisor: Supervisor) {
+        self.actors[character].supervisor = supervisor;
     }
 
     /// What a character sensed in the last step.
@@ -291,9 +294,14 @@ impl Simulation {
         }
         self.row.clear();
         for (i, actor) in self.actors.iter_mut().enumerate() {
-            let now = tick(&mut self.world, i, &mut actor.mind, &mut actor.torques);
-            let active = actor.mind.active_index().unwrap_or(0);
-            push_character(&mut self.row, now, actor.mind.reference_com(), active);
+            let now = tick(
+                &mut self.world,
+                i,
+                &mut actor.supervisor,
+                &mut actor.torques,
+            );
+            let active = actor.supervisor.active_index().unwrap_or(0);
+            push_character(&mut self.row, now, actor.supervisor.reference_com(), active);
             actor.observe(i, now, &mut self.events);
         }
         self.row.extend(self.world.prop_poses().flatten());

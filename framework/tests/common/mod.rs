@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Command, Condition, Contract, Controller, Registry, Spec};
+use aplomb_framework::events::Role;
 use aplomb_framework::input::Result;
 use aplomb_framework::sensing::Sensors;
 use serde::Deserialize;
@@ -37,6 +38,7 @@ impl Puppet {
     pub(crate) fn new(name: &str, weight: u32, precondition: Condition) -> Self {
         let mut contract = Contract {
             name: name.to_owned(),
+            role: Role::Other,
             weight,
             precondition,
             confident: false,

@@ -262,26 +262,26 @@ fn a_boundary_in_place_is_checked_as_well() {
 }
 
 /// What the controller bids, and why not.
-fn bid(mind: &Supervisor, velocity: f64) -> (f64, Option<String>) {
+fn bid(supervisor: &Supervisor, velocity: f64) -> (f64, Option<String>) {
     let mut now = Sensors::new(&Model::load("humanoid").unwrap(), 9.81);
     now.com_velocity[0] = velocity;
-    let bid = mind.bids(&now).remove(0);
+    let bid = supervisor.bids(&now).remove(0);
     let place = if bid.suitability > 1.0 { 0 } else { 1 };
-    assert_eq!(mind.arbitrate(&now), place);
-    (bid.suitability, bid.refusal)
+    assert_eq!(supervisor.arbitrate(&now), place);
+    (bid.suitability, bid.refusal.map(|r| r.to_string()))
 }
 
 #[test]
 fn what_was_learned_refines_what_was_written() {
     let folder = tempfile::tempdir().unwrap();
-    let mind = load(folder.path(), &with_digest(POLYNOMIAL), LEARNED).unwrap();
-    assert_eq!(bid(&mind, 0.5), (8.0, None));
+    let supervisor = load(folder.path(), &with_digest(POLYNOMIAL), LEARNED).unwrap();
+    assert_eq!(bid(&supervisor, 0.5), (8.0, None));
     let by_hand = "com_velocity_x ≥ 0 (is -0.500)".to_owned();
-    assert_eq!(bid(&mind, -0.5), (0.0, Some(by_hand)));
+    assert_eq!(bid(&supervisor, -0.5), (0.0, Some(by_hand)));
     let learned = "svm of wave (2 features, poly1) (is -0.250)".to_owned();
-    assert_eq!(bid(&mind, 1.25), (0.0, Some(learned)));
-    assert_eq!(bid(&mind, f64::NAN).0, 0.0);
-    let names: Vec<bool> = mind
+    assert_eq!(bid(&supervisor, 1.25), (0.0, Some(learned)));
+    assert_eq!(bid(&supervisor, f64::NAN).0, 0.0);
+    let names: Vec<bool> = supervisor
         .controllers()
         .map(|c| c.contract().precondition.is_learned())
         .collect();
@@ -292,11 +292,11 @@ fn what_was_learned_refines_what_was_written() {
 fn who_is_confident_bids_by_the_probability_of_success() {
     let folder = tempfile::tempdir().unwrap();
     let confident = LEARNED.replace("ron\")", "ron\", confident: true)");
-    let mind = load(folder.path(), &with_digest(POLYNOMIAL), &confident).unwrap();
-    let (suitability, refusal) = bid(&mind, 0.5);
+    let supervisor = load(folder.path(), &with_digest(POLYNOMIAL), &confident).unwrap();
+    let (suitability, refusal) = bid(&supervisor, 0.5);
     assert!((suitability - 8.0 / (1.0 + (-1.0_f64).exp())).abs() < 1e-12);
     assert_eq!(refusal, None);
-    assert_eq!(bid(&mind, 1.25).0, 0.0);
+    assert_eq!(bid(&supervisor, 1.25).0, 0.0);
 }
 
 #[test]

@@ -220,7 +220,7 @@ fn the_mind_closes_the_hands() {
         let registry = super::registry();
         let model = aplomb_framework::character::Model::load("humanoid").unwrap();
         let source = Source::new("pair.ron", pool);
-        let mind =
+        let supervisor =
             aplomb_framework::control::repertoire::build(&source, None, &registry, &model).unwrap();
         let mut scenario = Scenario::standing("humanoid", 1.0);
         scenario.settings.gravity = 0.0;
@@ -239,7 +239,7 @@ fn the_mind_closes_the_hands() {
             x + 0.135
         );
         scenario.props = vec![aplomb_framework::input::options().from_str(&ball).unwrap()];
-        let cast = vec![(model, mind)];
+        let cast = vec![(model, supervisor)];
         let mut run = aplomb_framework::run::Simulation::with_cast(&scenario, cast).unwrap();
         run.run(0.01);
         let sensed = run.sensors(0).props[0].held;

@@ -40,7 +40,7 @@ fn a_run_is_recorded_and_read_back_bit_for_bit() {
     );
     assert_eq!(
         read.controller(599, 0),
-        simulation.actors()[0].mind.active().unwrap()
+        simulation.actors()[0].supervisor.active().unwrap()
     );
     assert_eq!(moment.support.is_some(), now.base_of_support.is_some());
     let crate_fell = read.prop(599, 0)[1] < read.prop(0, 0)[1] - 0.2;

@@ -11,8 +11,8 @@ use super::{REPERTOIRE, changed, check_refusal, line_of, refusal_of_repertoire};
 fn the_repertoire_itself_is_fine() {
     let model = Model::load("humanoid").unwrap();
     let source = Source::new("pair.ron", REPERTOIRE);
-    let mind = repertoire::build(&source, None, &registry(), &model).unwrap();
-    let names: Vec<&str> = mind
+    let supervisor = repertoire::build(&source, None, &registry(), &model).unwrap();
+    let names: Vec<&str> = supervisor
         .controllers()
         .map(|c| c.contract().name.as_str())
         .collect();
@@ -151,7 +151,9 @@ fn files_of_a_repertoire_are_looked_for_beside_it_and_among_the_shipped() {
              Here((kind: \"puppet\", contract: (name: \"rest\", weight: 1, precondition: Always)))])"
         );
         repertoire::build(&Source::new("p.ron", text), folder, &registry, &model)
-            .map(|mind| mind.arbitrate(&aplomb_framework::sensing::Sensors::new(&model, 9.81)))
+            .map(|supervisor| {
+                supervisor.arbitrate(&aplomb_framework::sensing::Sensors::new(&model, 9.81))
+            })
             .map_err(|e| e.to_string())
     };
     assert_eq!(build("skills/wave.ron", None), Ok(0));

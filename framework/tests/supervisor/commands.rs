@@ -1,6 +1,7 @@
 //! Commands, and supervisors within supervisors.
 
-use aplomb_framework::control::{Condition, Controller, Decision, Supervisor};
+use aplomb_framework::control::{Condition, Controller, Supervisor};
+use aplomb_framework::events::{EventKind, Found, Unmet};
 use aplomb_framework::sensing::Sensors;
 
 use super::common::Puppet;
@@ -14,20 +15,22 @@ fn no_command_overrides_a_failed_precondition() {
         Condition::All(vec![Condition::Always, slower_than(0.5)]),
     );
     let (entries, obediences) = (run.entries(), run.obediences());
-    let mut mind = supervisor(vec![run, fallback()]);
+    let mut supervisor = supervisor(vec![run, fallback()]);
     let (mut now, mut torques) = (sensors(), vec![0.0; 12]);
     now.com_velocity[0] = 0.75;
-    mind.command("run").unwrap();
-    mind.act(&now, &mut torques);
-    assert_eq!(mind.active(), Some("rest"));
-    let refused = Decision::Refused {
-        time: 0.0,
-        command: "run".to_owned(),
-        controller: "run".to_owned(),
-        clause: "com_velocity_x ≤ 0.5 (is 0.750)".to_owned(),
-        value: Some(0.75),
+    supervisor.command("run").unwrap();
+    supervisor.act(&now, &mut torques);
+    assert_eq!(supervisor.active(), Some("rest"));
+    let unmet = Unmet {
+        clause: "com_velocity_x ≤ 0.5".to_owned(),
+        found: Found::Value(0.75),
     };
-    assert!(mind.take_decisions().contains(&refused));
+    let refused = EventKind::Refused {
+        command: "run".to_owned(),
+        controller: Some("run".to_owned()),
+        unmet,
+    };
+    assert!(supervisor.take_events().contains(&(0.0, refused)));
     assert_eq!(
         (entries(), obediences()),
         (0, 0),
@@ -36,34 +39,35 @@ fn no_command_overrides_a_failed_precondition() {
     // The refusal is final: the command isn't kept for better times.
     now.com_velocity[0] = 0.0;
     now.time = DT;
-    mind.act(&now, &mut torques);
-    assert_eq!((mind.active(), entries()), (Some("rest"), 0));
-    mind.command("run").unwrap();
-    mind.act(&now, &mut torques);
+    supervisor.act(&now, &mut torques);
+    assert_eq!((supervisor.active(), entries()), (Some("rest"), 0));
+    supervisor.command("run").unwrap();
+    supervisor.act(&now, &mut torques);
     assert_eq!(
-        (mind.active(), entries(), obediences()),
+        (supervisor.active(), entries(), obediences()),
         (Some("run"), 1, 1)
     );
 }
 
 #[test]
 fn an_unknown_command_is_refused_with_the_nearest() {
-    let mut mind = supervisor(vec![
+    let mut supervisor = supervisor(vec![
         Puppet::new("step_forward", 3, Condition::Always),
         fallback(),
     ]);
-    let refusal = mind.command("step_foward").unwrap_err().to_string();
+    let refusal = supervisor.command("step_foward").unwrap_err().to_string();
     assert_eq!(
         refusal,
         "unknown command 'step_foward' (did you mean 'step_forward'?); known: step_forward, rest"
     );
     assert!(
-        mind.command("step_forward length=1")
+        supervisor
+            .command("step_forward length=1")
             .unwrap_err()
             .to_string()
             .contains("takes no parameters")
     );
-    assert!(mind.command("").is_err());
+    assert!(supervisor.command("").is_err());
 }
 
 #[test]
@@ -74,22 +78,25 @@ fn several_commands_in_one_step_are_all_answered_in_order() {
         Puppet::new("c", 0, Condition::Always),
         fallback(),
     ];
-    let mut mind = supervisor(pool);
+    let mut supervisor = supervisor(pool);
     for text in ["a", "b", "c", "a", "c"] {
-        mind.command(text).unwrap();
+        supervisor.command(text).unwrap();
     }
-    mind.act(&sensors(), &mut [0.0; 12]);
-    let told = |d: &Decision| match d {
-        Decision::Obeyed { command, .. } => Some(format!("{command} obeyed")),
-        Decision::Refused { command, .. } => Some(format!("{command} refused")),
-        Decision::Switch { .. } => None,
+    supervisor.act(&sensors(), &mut [0.0; 12]);
+    let told = |(_, kind): &(f64, EventKind)| match kind {
+        EventKind::Command {
+            text,
+            accepted: true,
+        } => Some(format!("{text} obeyed")),
+        EventKind::Refused { command, .. } => Some(format!("{command} refused")),
+        _ => None,
     };
-    let answers: Vec<String> = mind.take_decisions().iter().filter_map(told).collect();
+    let answers: Vec<String> = supervisor.take_events().iter().filter_map(told).collect();
     assert_eq!(
         answers,
         ["a obeyed", "b refused", "c obeyed", "a obeyed", "c obeyed"]
     );
-    assert_eq!(mind.active(), Some("c"));
+    assert_eq!(supervisor.active(), Some("c"));
 }
 
 #[test]
@@ -104,20 +111,21 @@ fn a_supervisor_is_a_member_like_any_other() {
         Supervisor::new("inner", pool, "still").unwrap()
     };
     let pool: Vec<Box<dyn Controller>> = vec![Box::new(inner()), fallback().boxed()];
-    let mut mind = Supervisor::new("outer", pool, "rest").unwrap();
+    let mut supervisor = Supervisor::new("outer", pool, "rest").unwrap();
     let (now, mut torques) = (sensors(), vec![0.0; 12]);
-    mind.act(&now, &mut torques);
-    assert_eq!((mind.active(), torques[0]), (Some("inner"), 1.0));
-    let decisions = mind.take_decisions();
+    supervisor.act(&now, &mut torques);
+    assert_eq!((supervisor.active(), torques[0]), (Some("inner"), 1.0));
+    let decisions = supervisor.take_events();
     let all: Vec<&str> = switches(&decisions).iter().map(|s| s.2).collect();
     assert_eq!(all, ["inner", "slow"]);
-    mind.command("hop").unwrap();
-    mind.act(&now, &mut torques);
-    assert_eq!((mind.active(), torques[0]), (Some("inner"), 2.0));
-    let clone = mind.clone_box();
-    assert_eq!(clone.contract(), mind.contract());
+    supervisor.command("hop").unwrap();
+    supervisor.act(&now, &mut torques);
+    assert_eq!((supervisor.active(), torques[0]), (Some("inner"), 2.0));
+    let clone = supervisor.clone_box();
+    assert_eq!(clone.contract(), supervisor.contract());
     assert!(
-        mind.command("hopp")
+        supervisor
+            .command("hopp")
             .unwrap_err()
             .to_string()
             .contains("'hop'")
@@ -136,25 +144,25 @@ fn a_refused_command_is_not_carried_out_later() {
     // The inner pool behind a gate of its own.
     let gated = Gated::new(inner, slower_than(0.5));
     let pool: Vec<Box<dyn Controller>> = vec![Box::new(gated), fallback().boxed()];
-    let mut mind = Supervisor::new("outer", pool, "rest").unwrap();
+    let mut supervisor = Supervisor::new("outer", pool, "rest").unwrap();
     let (mut now, mut torques) = (sensors(), vec![0.0; 12]);
     now.com_velocity[0] = 0.9;
-    mind.act(&now, &mut torques);
-    mind.command("hop").unwrap();
+    supervisor.act(&now, &mut torques);
+    supervisor.command("hop").unwrap();
     now.time = DT;
-    mind.act(&now, &mut torques);
-    let refused = |d: &Decision| matches!(d, Decision::Refused { .. });
-    assert!(mind.take_decisions().iter().any(refused));
+    supervisor.act(&now, &mut torques);
+    let refused = |(_, kind): &(f64, EventKind)| matches!(kind, EventKind::Refused { .. });
+    assert!(supervisor.take_events().iter().any(refused));
     now.com_velocity[0] = 0.0;
     for step in 2..200 {
         now.time = f64::from(step) * DT;
-        mind.act(&now, &mut torques);
+        supervisor.act(&now, &mut torques);
     }
     assert_eq!(
         torques[0],
         1.0,
         "`slow` has won; nobody hops: {:?}",
-        mind.take_decisions()
+        supervisor.take_events()
     );
 }
 

@@ -9,7 +9,8 @@ mod pools;
 mod turns;
 
 use aplomb_framework::character::Model;
-use aplomb_framework::control::{Condition, Controller, Decision, Supervisor};
+use aplomb_framework::control::{Condition, Controller, Supervisor};
+use aplomb_framework::events::EventKind;
 use aplomb_framework::sensing::Sensors;
 use common::Puppet;
 
@@ -37,29 +38,30 @@ fn sensors() -> Sensors {
     Sensors::new(&Model::load("humanoid").unwrap(), 9.81)
 }
 
-/// Steps with a velocity that depends on time; returns all decisions.
-fn steps(mind: &mut Supervisor, count: u32, velocity: impl Fn(f64) -> f64) -> Vec<Decision> {
+/// Steps with a velocity that depends on time; returns what happened, with its time.
+fn steps(
+    supervisor: &mut Supervisor,
+    count: u32,
+    velocity: impl Fn(f64) -> f64,
+) -> Vec<(f64, EventKind)> {
     let mut now = sensors();
     let mut torques = vec![0.0; now.model.joint_count()];
     for step in 0..count {
         now.time = f64::from(step) * DT;
         now.com_velocity[0] = velocity(now.time);
-        mind.act(&now, &mut torques);
-        assert!(mind.active().is_some(), "something is always active");
+        supervisor.act(&now, &mut torques);
+        assert!(supervisor.active().is_some(), "something is always active");
     }
-    mind.take_decisions()
+    supervisor.take_events()
 }
 
 /// (time, from, to) of all switches.
-fn switches(decisions: &[Decision]) -> Vec<(f64, Option<&str>, &str)> {
-    let of = |d| match d {
-        &Decision::Switch {
-            time,
-            ref from,
-            ref to,
-            ..
-        } => Some((time, from.as_deref(), &**to)),
-        _ => None,
-    };
-    decisions.iter().filter_map(of).collect()
+fn switches(events: &[(f64, EventKind)]) -> Vec<(f64, Option<&str>, &str)> {
+    let mut switches = Vec::new();
+    for (time, kind) in events {
+        if let EventKind::Switch { from, to, .. } = kind {
+            switches.push((*time, from.as_deref(), &**to));
+        }
+    }
+    switches
 }

@@ -1,9 +1,8 @@
 //! Pools: bad ones, random ones.
 
 use aplomb_framework::character::{Model, State};
-use aplomb_framework::control::{
-    Condition, DWELL, Decision, RECOVERY, Supervisor, Why, repertoire,
-};
+use aplomb_framework::control::{Condition, DWELL, RECOVERY, Supervisor, repertoire};
+use aplomb_framework::events::{EventKind, Reason, Refusal};
 use aplomb_framework::input::Source;
 use aplomb_framework::run::tick;
 use aplomb_framework::world::{Settings, World};
@@ -18,13 +17,13 @@ fn torques_that_are_no_numbers_move_nothing() {
     let end = |torque: f64| {
         let mut world = World::new(Settings::default());
         world.spawn(&model, &State::standing(&model));
-        let mut mind = supervisor(vec![
+        let mut supervisor = supervisor(vec![
             Puppet::new("a", 5, Condition::Always).with_torque(torque),
             fallback(),
         ]);
         let mut torques = vec![0.0; 12];
         for _ in 0..300 {
-            tick(&mut world, 0, &mut mind, &mut torques);
+            tick(&mut world, 0, &mut supervisor, &mut torques);
             world.step();
         }
         world.sense(0).state.clone()
@@ -78,16 +77,16 @@ fn what_is_no_number_or_below_zero_never_wins() {
     let now = sensors();
     for bid in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -3.0, -0.0] {
         let broken = Puppet::new("a", 5, Condition::Always).that_bids(bid);
-        let mind = supervisor(vec![broken, fallback()]);
-        assert_eq!(mind.arbitrate(&now), 1, "{bid}");
-        let told = mind.bids(&now).remove(0);
+        let supervisor = supervisor(vec![broken, fallback()]);
+        assert_eq!(supervisor.arbitrate(&now), 1, "{bid}");
+        let told = supervisor.bids(&now).remove(0);
         assert_eq!(told.suitability, 0.0);
-        assert_eq!(told.refusal.as_deref(), Some("declines"), "{bid}");
+        assert_eq!(told.refusal, Some(Refusal::Declines), "{bid}");
     }
     let bids = [("a", 2.25), ("b", 2.5), ("c", 2.5)];
     let pool = bids.map(|(name, bid)| Puppet::new(name, 5, Condition::Always).that_bids(bid));
-    let mind = supervisor(pool.into_iter().chain([fallback()]).collect());
-    assert_eq!(mind.arbitrate(&now), 1, "the earlier of the highest");
+    let supervisor = supervisor(pool.into_iter().chain([fallback()]).collect());
+    assert_eq!(supervisor.arbitrate(&now), 1, "the earlier of the highest");
 }
 
 /// A member of a random pool: weight, highest velocity of its pre-condition, manner.
@@ -121,7 +120,7 @@ proptest! {
         members in prop::collection::vec(any_member(), 0..9),
         velocity in -1.2..1.2_f64,
     ) {
-        let mind = supervisor(pool_of(&members));
+        let supervisor = supervisor(pool_of(&members));
         let mut now = sensors();
         now.com_velocity[0] = velocity;
         // Independently: the weight where the bound holds.
@@ -131,16 +130,16 @@ proptest! {
             .collect();
         bids.push(1);
         let highest = *bids.iter().max().unwrap();
-        let winner = mind.arbitrate(&now);
+        let winner = supervisor.arbitrate(&now);
         prop_assert!(bids[winner] > 0);
         prop_assert_eq!(winner, bids.iter().position(|b| *b == highest).unwrap());
-        for (bid, expected) in mind.bids(&now).iter().zip(&bids) {
+        for (bid, expected) in supervisor.bids(&now).iter().zip(&bids) {
             prop_assert_eq!(bid.suitability, f64::from(*expected));
             prop_assert_eq!(bid.refusal.is_some(), *expected == 0);
         }
         // Polling has no side effect.
-        prop_assert_eq!(mind.arbitrate(&now), winner);
-        prop_assert_eq!(mind.active(), None);
+        prop_assert_eq!(supervisor.arbitrate(&now), winner);
+        prop_assert_eq!(supervisor.active(), None);
     }
 
     #[test]
@@ -148,22 +147,22 @@ proptest! {
         members in prop::collection::vec(any_member(), 1..6),
         pace in 0.5..500.0_f64,
     ) {
-        let mut mind = supervisor(pool_of(&members));
-        let decisions = steps(&mut mind, 1200, |t| (pace * t).sin());
+        let mut supervisor = supervisor(pool_of(&members));
+        let events = steps(&mut supervisor, 1200, |t| (pace * t).sin());
         let mut since = 0.0;
         let mut failed_at = std::collections::BTreeMap::new();
-        for decision in &decisions {
-            let Decision::Switch { time, from, to, why, bids } = decision else {
+        for (time, kind) in &events {
+            let EventKind::Switch { from, to, reason, bids, .. } = kind else {
                 return Err(TestCaseError::fail("no command was given"));
             };
             prop_assert_ne!(from.as_deref(), Some(&**to), "no incumbent is entered again");
-            match why {
-                Why::Succeeded => prop_assert!(time - since >= DWELL - 1e-9),
-                Why::Failed(_) => {
+            match reason {
+                Reason::Succeeded => prop_assert!(time - since >= DWELL - 1e-9),
+                Reason::Failed(_) => {
                     failed_at.insert(from.clone().unwrap(), *time);
                 }
-                Why::Start => prop_assert_eq!(*time, 0.0),
-                Why::Command => prop_assert!(false),
+                Reason::Start => prop_assert_eq!(*time, 0.0),
+                Reason::Command => prop_assert!(false),
             }
             if let Some(failed) = failed_at.get(to) {
                 prop_assert!(time - failed >= RECOVERY - 1e-9, "{} recovers", to);

@@ -97,7 +97,7 @@ impl Plan {
     ) -> Result<Self> {
         let simulation = Simulation::new(&scenario, &registry)?;
         let model = Arc::clone(simulation.world().characters()[0].body.model());
-        let pool = simulation.actors()[0].mind.controllers();
+        let pool = simulation.actors()[0].supervisor.controllers();
         let pool = pool.map(|c| c.contract().name.clone()).collect();
         Ok(Self {
             scenario,

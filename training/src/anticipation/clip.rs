@@ -1,6 +1,6 @@
 //! A clip: a scenario whose first character is commanded to an anticipatory controller.
 //!
-//! scenario, repertoire → [`Clip`] → minds with other trajectories.
+//! scenario, repertoire → [`Clip`] → supervisors with other trajectories.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -153,13 +153,13 @@ impl Clip {
     ///
     /// # Errors
     /// What makes a repertoire invalid.
-    pub fn mind(&self, cmrt: Option<Cmrt>) -> Result<Supervisor> {
+    pub fn supervisor(&self, cmrt: Option<Cmrt>) -> Result<Supervisor> {
         let own = self.controller.clone();
         let controller = match cmrt {
             Some(cmrt) => own.with_cmrt(self.motion, Some(cmrt)),
             None => (0..self.spec.motions.len()).fold(own, |c, i| c.with_cmrt(i, None)),
         };
-        self.skill.mind.with_replaced(controller.clone_box())
+        self.skill.supervisor.with_replaced(controller.clone_box())
     }
 
     /// The scenario's run with the controller's first motion along a trajectory, or none, at its
@@ -168,7 +168,7 @@ impl Clip {
     /// # Errors
     /// What makes a scenario or repertoire invalid.
     pub fn simulation(&self, cmrt: Option<Cmrt>) -> Result<Simulation> {
-        let cast = vec![(Arc::clone(self.model()), self.mind(cmrt)?)];
+        let cast = vec![(Arc::clone(self.model()), self.supervisor(cmrt)?)];
         Simulation::with_cast(&self.scenario, cast)
     }
 

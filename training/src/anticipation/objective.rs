@@ -87,8 +87,8 @@ impl Judged {
 /// # Errors
 /// What makes a scenario or repertoire invalid.
 pub fn evaluate(clip: &Clip, cmrt: Option<&Cmrt>) -> Result<Evaluation> {
-    let mind = clip.mind(cmrt.cloned())?;
-    rollout(clip, &clip.scenario, mind, None)
+    let supervisor = clip.supervisor(cmrt.cloned())?;
+    rollout(clip, &clip.scenario, supervisor, None)
 }
 
 /// The objective, averaged over the clip's own start and so many perturbed ones: what is found on the
@@ -97,11 +97,11 @@ pub fn evaluate(clip: &Clip, cmrt: Option<&Cmrt>) -> Result<Evaluation> {
 /// # Errors
 /// As [`evaluate`].
 pub fn averaged(clip: &Clip, cmrt: Option<&Cmrt>, starts: usize, seed: u64) -> Result<Evaluation> {
-    let mind = clip.mind(cmrt.cloned())?;
-    let mut own = rollout(clip, &clip.scenario, mind.clone(), None)?;
+    let supervisor = clip.supervisor(cmrt.cloned())?;
+    let mut own = rollout(clip, &clip.scenario, supervisor.clone(), None)?;
     let mut sum = own.objective;
     for i in 0..starts {
-        let further = perturbed(clip, mind.clone(), seed, i)?;
+        let further = perturbed(clip, supervisor.clone(), seed, i)?;
         sum += further.objective;
         own.succeeds &= further.succeeds;
     }
@@ -114,20 +114,20 @@ pub fn averaged(clip: &Clip, cmrt: Option<&Cmrt>, starts: usize, seed: u64) -> R
 /// # Errors
 /// As [`evaluate`].
 pub fn successes(clip: &Clip, cmrt: Option<&Cmrt>, seed: u64) -> Result<usize> {
-    let mind = clip.mind(cmrt.cloned())?;
-    let one = |i: usize| perturbed(clip, mind.clone(), seed, i).map(|e| e.succeeds);
+    let supervisor = clip.supervisor(cmrt.cloned())?;
+    let one = |i: usize| perturbed(clip, supervisor.clone(), seed, i).map(|e| e.succeeds);
     let all: Result<Vec<bool>> = (0..PERTURBED).into_par_iter().map(one).collect();
     Ok(all?.into_iter().filter(|s| *s).count())
 }
 
 /// A rollout from the perturbed start of this number.
-fn perturbed(clip: &Clip, mind: Supervisor, seed: u64, number: usize) -> Result<Evaluation> {
+fn perturbed(clip: &Clip, supervisor: Supervisor, seed: u64, number: usize) -> Result<Evaluation> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(number as u64 + 1);
     let mut scenario = clip.scenario.clone();
     perturb(&mut scenario, clip.model(), &mut random);
     let velocity = random.gen_range(-VELOCITY..=VELOCITY);
-    rollout(clip, &scenario, mind, Some(velocity))
+    rollout(clip, &scenario, supervisor, Some(velocity))
 }
 
 /// Offsets of all joints of the first character's start.
@@ -152,10 +152,10 @@ struct Sums {
 fn rollout(
     clip: &Clip,
     scenario: &Scenario,
-    mind: Supervisor,
+    supervisor: Supervisor,
     velocity: Option<f64>,
 ) -> Result<Evaluation> {
-    let cast = vec![(std::sync::Arc::clone(clip.model()), mind)];
+    let cast = vec![(std::sync::Arc::clone(clip.model()), supervisor)];
     let mut run = Simulation::with_cast(scenario, cast)?;
     if let Some(velocity) = velocity {
         let root = clip.model().links[0].name.clone();
@@ -183,7 +183,7 @@ fn rollout(
             continue;
         }
         // Also before the motion: what is lost then cannot be won.
-        let active = run.actors()[0].mind.active();
+        let active = run.actors()[0].supervisor.active();
         if now.is_down() || (active != Some(name) && now.time < end - 2.0 * dt) {
             fell = Some(now.time);
             break;

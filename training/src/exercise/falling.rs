@@ -1,6 +1,6 @@
 //! How well a falling controller protects a character that is pushed over.
 //!
-//! push, mind → rollout → what touched first, impacts, rest → cost.
+//! push, supervisor → rollout → what touched first, impacts, rest → cost.
 
 use aplomb_framework::control::Supervisor;
 use aplomb_framework::events::{EventKind, Reason};
@@ -47,12 +47,12 @@ impl Landing {
     }
 }
 
-/// Runs `mind` from a push, forward or backward, until the character lies still or the controller
+/// Runs `supervisor` from a push, forward or backward, until the character lies still or the controller
 /// that it came down with has succeeded: whatever touches after that belongs to getting up.
 #[must_use]
-pub fn land(start: &Simulation, mind: &Supervisor, forward: bool) -> Landing {
+pub fn land(start: &Simulation, supervisor: &Supervisor, forward: bool) -> Landing {
     let mut run = start.clone();
-    run.set_mind(0, mind.clone());
+    run.set_supervisor(0, supervisor.clone());
     let begun = run.time();
     let dt = run.world().settings().dt;
     let mut impact = Impact::new(dt);
@@ -127,15 +127,15 @@ mod tests {
     fn landing(repertoire: &str, sites: &'static [Site], impulse: f64) -> Landing {
         let model = Model::load("humanoid").unwrap();
         let registry = aplomb_controllers::registry();
-        let mind = repertoire::load(repertoire, &registry, &model).unwrap();
+        let supervisor = repertoire::load(repertoire, &registry, &model).unwrap();
         let pushes = Pushes {
             impulse: [impulse; 2],
             sites,
             count: 2,
             seed: 0,
         };
-        let starts = pushes.begin(&model, &mind, Worlds::single(1.0, 1.0));
-        land(&starts.unwrap()[1], &mind, false)
+        let starts = pushes.begin(&model, &supervisor, Worlds::single(1.0, 1.0));
+        land(&starts.unwrap()[1], &supervisor, false)
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! How well a controller brings a fallen character to its goal: a cost over many starts.
 //!
-//! starts, mind → rollouts → success, time, impacts → cost.
+//! starts, supervisor → rollouts → success, time, impacts → cost.
 
 use aplomb_framework::control::{Condition, Contract, Supervisor};
 use aplomb_framework::events::{EventKind, Reason};
@@ -77,12 +77,17 @@ impl Rising {
     }
 }
 
-/// Runs `mind` from a start, at which it is commanded to the controller with this contract, until
+/// Runs `supervisor` from a start, at which it is commanded to the controller with this contract, until
 /// the goal is reached or any controller fails.
 #[must_use]
-pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Goal) -> Rising {
+pub fn rise(
+    start: &Simulation,
+    supervisor: &Supervisor,
+    contract: &Contract,
+    goal: Goal,
+) -> Rising {
     let mut run = start.clone();
-    run.set_mind(0, mind.clone());
+    run.set_supervisor(0, supervisor.clone());
     if let Some(command) = contract.commands.first() {
         // Its pre-condition holds: this is where it took over. Nobody answers only if the repertoire
         // lacks the controller; then the others do what they can.
@@ -112,7 +117,7 @@ pub fn rise(start: &Simulation, mind: &Supervisor, contract: &Contract, goal: Go
         all.motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
         steps += 1.0;
         all.nearest = f64::max(all.nearest, nearness(now, goal, barred));
-        let name = run.actors()[0].mind.active().unwrap_or_default();
+        let name = run.actors()[0].supervisor.active().unwrap_or_default();
         match goal {
             Goal::Stand => {
                 steady = if now.stands() { steady + dt } else { 0.0 };
@@ -247,15 +252,15 @@ mod tests {
     fn shipped(repertoire: &str, name: &str, pitch: f64) -> Rising {
         let model = Model::load("humanoid").unwrap();
         let registry = aplomb_controllers::registry();
-        let mind = repertoire::load(repertoire, &registry, &model).unwrap();
-        let mut pool = mind.controllers().map(|c| c.contract().clone());
+        let supervisor = repertoire::load(repertoire, &registry, &model).unwrap();
+        let mut pool = supervisor.controllers().map(|c| c.contract().clone());
         let contract = pool.find(|c| c.name == name).unwrap();
         let mut scenario = Scenario::standing("humanoid", 10.0);
         scenario.characters[0].start.pitch = pitch;
-        let cast = vec![(Arc::clone(&model), mind.clone())];
+        let cast = vec![(Arc::clone(&model), supervisor.clone())];
         let mut start = Simulation::with_cast(&scenario, cast).unwrap();
         start.run(0.5);
-        rise(&start, &mind, &contract, Goal::Stand)
+        rise(&start, &supervisor, &contract, Goal::Stand)
     }
 
     #[test]

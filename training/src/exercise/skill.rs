@@ -17,7 +17,7 @@ pub struct Skill {
     /// Its contract, for the character.
     pub contract: Contract,
     /// The whole repertoire.
-    pub mind: Supervisor,
+    pub supervisor: Supervisor,
     /// The character.
     pub model: Arc<Model>,
     /// Hash of the character's file and of the other controllers of the repertoire, in their order.
@@ -30,7 +30,7 @@ impl Skill {
     /// # Errors
     /// What makes a repertoire invalid.
     pub fn all(name_or_path: &str, registry: &Registry, model: &Arc<Model>) -> Result<Vec<Self>> {
-        let mind = repertoire::load(name_or_path, registry, model)?;
+        let supervisor = repertoire::load(name_or_path, registry, model)?;
         let files = repertoire::read(name_or_path, registry)?;
         let one = |(place, file): (usize, &ControllerFile)| {
             let mut contract = file.contract.clone();
@@ -38,7 +38,7 @@ impl Skill {
             Ok(Self {
                 file: file.clone(),
                 contract,
-                mind: mind.clone(),
+                supervisor: supervisor.clone(),
                 model: Arc::clone(model),
                 surroundings: surroundings(&files, place, model),
             })

@@ -61,8 +61,8 @@ impl Push {
         let mut scenario = Scenario::standing("humanoid", 10.0);
         scenario.settings.friction = self.friction;
         let model = Model::load("humanoid")?;
-        let mind = repertoire::build(&Source::new("tuned", text), None, registry, &model)?;
-        let mut run = Simulation::with_cast(&scenario, vec![(Arc::clone(&model), mind)])?;
+        let supervisor = repertoire::build(&Source::new("tuned", text), None, registry, &model)?;
+        let mut run = Simulation::with_cast(&scenario, vec![(Arc::clone(&model), supervisor)])?;
         run.run(self.at);
         run.push(0, self.site.link(&model), self.impulse)?;
         Ok(run)
@@ -95,14 +95,14 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
     let quiet = run.sensors(0).com_velocity[0].abs() < 0.05;
     let (mut motion, mut steps, mut slouch, mut lifted) = (0.0, 0.0, 0.0, 0.0);
     let before: Vec<f64> = run.sensors(0).state.angles().to_vec();
-    let first = run.actors()[0].mind.active_index();
+    let first = run.actors()[0].supervisor.active_index();
     while run.time() < push.at + 7.0 {
         run.step();
         let now = run.sensors(0);
         motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
         steps += 1.0;
         lifted += f64::from(u8::from(!now.feet.iter().all(|f| f.touching())));
-        if run.actors()[0].mind.active_index() != first {
+        if run.actors()[0].supervisor.active_index() != first {
             break;
         }
         if now.time < push.at + RECOVERED {
@@ -117,7 +117,8 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
             break;
         }
     }
-    let stood = run.outcome(0).standing && run.actors()[0].mind.active_index() == first && quiet;
+    let stood =
+        run.outcome(0).standing && run.actors()[0].supervisor.active_index() == first && quiet;
     Ok(Taken {
         stood,
         slouch,

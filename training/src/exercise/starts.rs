@@ -75,7 +75,7 @@ pub struct Starts {
 /// `watch` sees how many there are so far, of all controllers, and may end the work.
 ///
 /// # Errors
-/// A mind for another character.
+/// A supervisor for another character.
 pub fn starts(
     source: Source,
     count: usize,
@@ -111,7 +111,7 @@ pub fn starts(
         {
             let begin = |rng: &mut ChaCha8Rng| {
                 let mut run = disturbed.run(source.worlds.draw(rng), rng)?;
-                run.set_mind(0, before.clone());
+                run.set_supervisor(0, before.clone());
                 Ok(run)
             };
             let mut watch = |found| watch(total + found);
@@ -248,6 +248,6 @@ fn handed_over(begun: Simulation, contracts: &[&Contract]) -> Vec<Option<Simulat
 }
 
 fn takes_over(contract: &Contract, run: &Simulation) -> bool {
-    run.actors()[0].mind.active() == Some(&contract.name)
+    run.actors()[0].supervisor.active() == Some(&contract.name)
         || contract.weight == 0 && contract.precondition.holds(run.sensors(0))
 }

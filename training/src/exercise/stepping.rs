@@ -1,6 +1,6 @@
 //! How well a step takes pushes that balance in place does not.
 //!
-//! push, mind → rollout → steady on parallel feet, time, way, bent trunk → cost.
+//! push, supervisor → rollout → steady on parallel feet, time, way, bent trunk → cost.
 
 use aplomb_framework::control::Supervisor;
 use aplomb_framework::run::Simulation;
@@ -39,11 +39,11 @@ impl Stepped {
     }
 }
 
-/// Runs `mind` from a push on.
+/// Runs `supervisor` from a push on.
 #[must_use]
-pub fn step(start: &Simulation, mind: &Supervisor) -> Stepped {
+pub fn step(start: &Simulation, supervisor: &Supervisor) -> Stepped {
     let mut run = start.clone();
-    run.set_mind(0, mind.clone());
+    run.set_supervisor(0, supervisor.clone());
     let (begun, x) = (run.time(), run.sensors(0).com[0]);
     let dt = run.world().settings().dt;
     let mut all = Stepped {

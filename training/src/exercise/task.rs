@@ -1,6 +1,6 @@
 //! What a controller is measured by: situations that it has to cope with, and what counts as coping.
 //!
-//! skill, drill → starts in random worlds; mind → rollouts in parallel → [`Score`].
+//! skill, drill → starts in random worlds; supervisor → rollouts in parallel → [`Score`].
 //!
 //! A controller of kind `fall` is for pushes that nothing withstands ([`falling`]). One that takes
 //! over from a character on its feet alone, and leaves it standing, is pushed less ([`stepping`]);
@@ -171,7 +171,7 @@ fn wanted(skill: &Skill) -> Wanted<'_> {
     let disturbed = || {
         let source = disturbance::shipped(skill.name()).ok()?;
         let disturbance = Disturbance::parse(&source, &skill.model).ok()?;
-        Disturbed::new(disturbance, &skill.model, &skill.mind).ok()
+        Disturbed::new(disturbance, &skill.model, &skill.supervisor).ok()
     };
     Wanted {
         contract: &skill.contract,
@@ -221,14 +221,16 @@ impl Exercise {
             .map(|(skill, _)| wanted(skill))
             .collect();
         let risen = match skills.first() {
-            Some(Skill { model, mind, .. }) => {
+            Some(Skill {
+                model, supervisor, ..
+            }) => {
                 let source = starts::Source {
                     worlds: drill.worlds,
                     heaps: HEAPS,
                     patience: drill.patience,
                     seed: drill.seed,
                 };
-                starts(source, drill.starts, model, &rising, mind, watch)?
+                starts(source, drill.starts, model, &rising, supervisor, watch)?
             }
             None => Vec::new(),
         };
@@ -245,7 +247,7 @@ impl Exercise {
             };
             let starts = match pushes {
                 Some(pushes) => Starts {
-                    runs: pushes.begin(&skill.model, &skill.mind, drill.worlds)?,
+                    runs: pushes.begin(&skill.model, &skill.supervisor, drill.worlds)?,
                     own: 0,
                 },
                 None => risen.next().unwrap_or_default(),
@@ -280,18 +282,18 @@ impl Exercise {
 
     /// How well the controller does in a repertoire.
     #[must_use]
-    pub fn judge(&self, mind: &Supervisor) -> Score {
+    pub fn judge(&self, supervisor: &Supervisor) -> Score {
         let one = |(index, start): (usize, &Simulation)| match self.task {
             Task::Rise(goal) => {
-                let rising = rising::rise(start, mind, &self.contract, goal);
+                let rising = rising::rise(start, supervisor, &self.contract, goal);
                 (rising.cost(), rising.reached)
             }
             Task::Push => {
-                let stepped = stepping::step(start, mind);
+                let stepped = stepping::step(start, supervisor);
                 (stepped.cost(), stepped.stood)
             }
             Task::Fall => {
-                let landing = falling::land(start, mind, is_forward(index));
+                let landing = falling::land(start, supervisor, is_forward(index));
                 (landing.cost(), landing.protected)
             }
         };

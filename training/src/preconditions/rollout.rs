@@ -58,7 +58,7 @@ impl Trial {
         let limp = vec![0.0; skill.model.joint_count()];
         let idle: Box<dyn Controller> = Box::new(Held::new("idle", &skill.model, limp, 0.0));
         Ok(Self {
-            disturbed: Disturbed::new(disturbance, &skill.model, &skill.mind)?,
+            disturbed: Disturbed::new(disturbance, &skill.model, &skill.supervisor)?,
             alone: Supervisor::new("alone", vec![controller, idle], "idle")?,
             contract: skill.contract.clone(),
         })
@@ -76,7 +76,7 @@ impl Trial {
     /// A character whose parts do not fit each other.
     pub fn sample(&self, rng: &mut ChaCha8Rng) -> Result<Sample> {
         let mut run = self.disturbed.run(Settings::default(), rng)?;
-        run.set_mind(0, self.alone.clone());
+        run.set_supervisor(0, self.alone.clone());
         if let Some(command) = self.contract.commands.first() {
             run.command(0, &command.name)?;
         }

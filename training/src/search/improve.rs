@@ -118,11 +118,11 @@ fn search<T: Tunable>(
         seed: plan.seed,
     };
     let (journal, base) = open(skill, file, plan, search)?;
-    let mind = skill
-        .mind
+    let supervisor = skill
+        .supervisor
         .with_replaced(base.clone().build(contract.clone(), model)?)?;
     let skill = Skill {
-        mind,
+        supervisor,
         ..skill.clone()
     };
     let mut ended = false;
@@ -146,8 +146,8 @@ fn search<T: Tunable>(
     }
     let measure = |point: &[f64]| {
         let built = Spec::build(at(&base, model, point), contract.clone(), model);
-        let mind = built.and_then(|controller| skill.mind.with_replaced(controller));
-        mind.map_or(Score::WORST, |mind| exercise.judge(&mind))
+        let supervisor = built.and_then(|controller| skill.supervisor.with_replaced(controller));
+        supervisor.map_or(Score::WORST, |supervisor| exercise.judge(&supervisor))
     };
     let start = point_of(&base, model);
     let first = measure(&start);

@@ -9,7 +9,7 @@ use aplomb_framework::input::{Error, Result, Source};
 use aplomb_framework::sensing::Feature;
 use serde::Deserialize;
 
-/// At most this many starts, minds or links to draw from.
+/// At most this many starts, supervisors or links to draw from.
 const MOST: usize = 64;
 /// Strongest force, N.
 const STRONGEST: f64 = 20_000.0;

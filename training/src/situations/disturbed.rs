@@ -87,7 +87,7 @@ impl Disturbed {
             .iter()
             .map(|a| a + d.offset * rng.gen_range(-1.0..=1.0))
             .collect();
-        let mind = match d.during[rng.gen_range(0..d.during.len())] {
+        let supervisor = match d.during[rng.gen_range(0..d.during.len())] {
             During::Repertoire => self.repertoire.clone(),
             During::Servos => {
                 let held: Box<dyn Controller> =
@@ -95,7 +95,7 @@ impl Disturbed {
                 Supervisor::new("held", vec![held], "held")?
             }
         };
-        let cast = vec![(Arc::clone(&self.model), mind)];
+        let cast = vec![(Arc::clone(&self.model), supervisor)];
         let mut run = Simulation::with_cast(&scenario, cast)?;
         let link = &d.force.links[rng.gen_range(0..d.force.links.len())];
         let magnitude = d.force.most * rng.gen_range(0.0..=1.0);

@@ -1,6 +1,6 @@
 //! Pushes of a character that stands: where they act, and a row of them in random worlds.
 //!
-//! pushes, mind, worlds → [`Simulation`]s at the moment at which the character is pushed.
+//! pushes, supervisor, worlds → [`Simulation`]s at the moment at which the character is pushed.
 
 use std::sync::Arc;
 
@@ -62,14 +62,14 @@ pub fn is_forward(index: usize) -> bool {
 }
 
 impl Pushes {
-    /// Characters that have stood under `mind`, at the moment at which they are pushed.
+    /// Characters that have stood under `supervisor`, at the moment at which they are pushed.
     ///
     /// # Errors
-    /// A mind for another character.
+    /// A supervisor for another character.
     pub fn begin(
         self,
         model: &Arc<Model>,
-        mind: &Supervisor,
+        supervisor: &Supervisor,
         worlds: Worlds,
     ) -> Result<Vec<Simulation>> {
         let one = |i: usize| {
@@ -77,7 +77,7 @@ impl Pushes {
             rng.set_stream(i as u64);
             let mut scenario = Scenario::standing(&model.name, 1.0);
             scenario.settings = worlds.draw(&mut rng);
-            let cast = vec![(Arc::clone(model), mind.clone())];
+            let cast = vec![(Arc::clone(model), supervisor.clone())];
             let mut run = Simulation::with_cast(&scenario, cast)?;
             run.run(PUSH_AT + rng.gen_range(0.0..0.2));
             let (site, impulse) = self.push(i);

@@ -46,7 +46,7 @@ fn exercised(threads: usize, skill: &Skill, drill: Drill) -> (Vec<String>, Score
             .iter()
             .map(Simulation::digest)
             .collect();
-        (digests, exercise.judge(&skill.mind))
+        (digests, exercise.judge(&skill.supervisor))
     })
 }
 

@@ -79,7 +79,7 @@ mod tests {
         let base = 2.0 * (0.5 - 0.75) + 1.0_f64;
         for degree in 1..=3 {
             let coefficients = of(degree);
-            let found = Decision::Polynomial {
+            let found = DecisionFunction::Polynomial {
                 degree,
                 coefficients,
             }

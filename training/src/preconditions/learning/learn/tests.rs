@@ -76,7 +76,10 @@ fn the_report_is_whole_and_the_same_on_any_number_of_threads() {
 fn a_radial_machine_is_learned_if_asked_for() {
     let (learned, report) = learned("rbf", 2);
     assert_eq!(report.svm.kernel, "rbf");
-    assert!(matches!(learned.decision, Decision::Gaussian { .. }));
+    assert!(matches!(
+        learned.decision,
+        DecisionFunction::Gaussian { .. }
+    ));
     assert!(report.svm.metrics.balanced_accuracy > 0.85, "{report:?}");
 }
 
