@@ -8,12 +8,12 @@ use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use rayon::prelude::*;
 use resvg::tiny_skia::Pixmap;
 
-use super::camera::{Room, Track};
 use super::drawable;
 use super::palette::{Palette, UNCHANGED};
 use super::raster::pixels;
 use super::scene::Scene;
 use super::style::document;
+use super::track::{Room, Track};
 
 /// Frames that are drawn at a time.
 const BATCH: usize = 32;

@@ -6,7 +6,6 @@ use aplomb_framework::run::Trajectory;
 use svg::node::element::Group;
 
 use super::body::SKINS;
-use super::camera::{Room, Track};
 use super::choose::{Shot, shots, suitable};
 use super::marks::{WEIGHT_ARROW, com_sign, cop_sign, support_sign};
 use super::scene::{Scene, window};
@@ -14,6 +13,7 @@ use super::style::{
     FAINT_INK, FORCE, FRAME, INK, PUSH, arrow, line, px, rectangle, shortened, text, text_width,
 };
 use super::timeline::event_colour;
+use super::track::{Room, Track};
 use super::{GRAVITY, drawable};
 
 /// Width of a strip, SVG units.

@@ -10,7 +10,7 @@ use aplomb_framework::input::{Error, Result, Source, options, write_atomically};
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-use crate::anticipation::encoding::ordered;
+use crate::anticipation::knots::ordered;
 
 /// Standard deviations of a component from the middle of the unit cube to its faces.
 const SPREAD: f64 = 3.0;

@@ -7,5 +7,6 @@
 pub mod basis;
 pub mod clip;
 pub mod encoding;
+mod knots;
 pub mod objective;
 pub mod search;

@@ -18,7 +18,8 @@ use std::ops::ControlFlow;
 use aplomb_framework::input::{Error, Result};
 
 use super::folds::{Folded, Measured};
-use super::machine::{Kernel, Settings, checked};
+use super::machine::{Kernel, Settings};
+use super::training::checked;
 
 /// Only the first so many samples of the training set take part in the search, so that its time is bounded.
 pub const MOST_SEARCHED: usize = 3_000;

@@ -8,8 +8,9 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::libsvm_solver;
-use super::machine::{Settings, prices};
+use super::machine::Settings;
 use super::metrics::metrics_of_scores;
+use super::training::prices;
 
 /// So many parts; each is held out once.
 const FOLDS: usize = 4;

@@ -13,12 +13,13 @@ use super::calibration::calibrate;
 use super::cross_validation::choose;
 use super::dataset::Dataset;
 use super::learned::Learned;
-use super::machine::{Kernel, Settings, train as train_machine};
+use super::machine::{Kernel, Settings};
 use super::metrics::{area, log_loss, metrics, metrics_of_scores, roc, thinned};
 use super::neighbour::Neighbours;
 use super::slice::slice;
 use super::split;
 use super::standardise::Scaling;
+use super::training::train as train_machine;
 use crate::preconditions::report::{CurvePoint, NeighbourReport, Report, SvmReport};
 
 /// Queries that are timed, one after another.

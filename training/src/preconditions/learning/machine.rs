@@ -1,7 +1,6 @@
 //! A support vector machine with balanced classes (Cortes & Vapnik 1995), whatever solves it.
 //!
-//! standardised rows, labels, [`Settings`] → [`Machine`]; standardised row → score, a success if it
-//! is at least 0.
+//! [`Settings`] → `training` → [`Machine`]; standardised row → score, a success if it is at least 0.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,11 +8,8 @@ use std::str::FromStr;
 use aplomb_framework::control::boundary::DecisionFunction;
 use aplomb_framework::input::{Error, Result};
 
-use super::{libsvm_solver, linfa_solver, polynomial};
+use super::polynomial;
 
-/// The most samples that linfa-svm is given: its dense kernel matrix and its time grow with the
-/// square of their number.
-pub const MOST_FOR_LINFA: usize = 5_000;
 /// Decimals of a support vector in a boundary file: a ten-thousandth of a standard deviation decides nothing, and the
 /// file has less than half the size.
 pub const SUPPORT_DIGITS: i32 = 4;
@@ -182,65 +178,10 @@ impl Machine {
     }
 }
 
-/// Trains a machine with linfa-svm, or with libsvm-rs above [`MOST_FOR_LINFA`] samples.
-///
-/// # Errors
-/// [`Error::Invalid`] if the rows are not finite or differ in length, a class has fewer than two
-/// samples, C or γ is not positive, or the solver finds no finite machine.
-pub fn train(rows: &[Vec<f64>], labels: &[bool], settings: &Settings) -> Result<Machine> {
-    let counts = checked(rows, labels, settings)?;
-    let prices = prices(settings.c, counts);
-    let machine = if rows.len() <= MOST_FOR_LINFA {
-        linfa_solver::solve(rows, labels, settings, prices)?
-    } else {
-        libsvm_solver::solve(rows, labels, settings, prices, libsvm_solver::TOLERANCE)
-    };
-    let finite = machine.offset.is_finite() && machine.weights.iter().all(|w| w.is_finite());
-    if !finite {
-        let accepted = "a set that the solver can separate with finite weights";
-        return Err(Error::invalid("machine", "weight", "not finite", accepted));
-    }
-    Ok(machine)
-}
-
 /// A standardised row with [`SUPPORT_DIGITS`].
 fn rounded(row: &[f64]) -> Vec<f64> {
     let ones = 10_f64.powi(SUPPORT_DIGITS);
     row.iter().map(|z| (z * ones).round() / ones).collect()
-}
-
-/// Prices C of successes and of failures, given how many of both there are.
-pub(super) fn prices(c: f64, (successes, failures): (usize, usize)) -> [f64; 2] {
-    let count = (successes + failures) as f64;
-    [successes, failures].map(|k| c * count / (2.0 * k as f64))
-}
-
-/// Counts of successes and failures of a set that can be trained on.
-pub(super) fn checked(
-    rows: &[Vec<f64>],
-    labels: &[bool],
-    settings: &Settings,
-) -> Result<(usize, usize)> {
-    let place = "training set";
-    for (field, value) in [("C", settings.c), ("gamma", settings.gamma)] {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(Error::invalid("settings", field, value, "above 0, finite"));
-        }
-    }
-    let width = rows.first().map_or(0, Vec::len);
-    let sound = |row: &Vec<f64>| row.len() == width && row.iter().all(|v| v.is_finite());
-    if rows.len() != labels.len() || width == 0 || !rows.iter().all(sound) {
-        let found = "not a finite number for every feature and a label for every row";
-        return Err(Error::invalid(place, "rows", found, "rows of one length"));
-    }
-    let successes = labels.iter().filter(|s| **s).count();
-    let failures = labels.len() - successes;
-    if successes.min(failures) < 2 {
-        let found = format!("{successes} times 1 and {failures} times 0");
-        let accepted = "each at least twice: a boundary needs both";
-        return Err(Error::invalid(place, "success", found, accepted));
-    }
-    Ok((successes, failures))
 }
 
 #[cfg(test)]
@@ -250,6 +191,8 @@ mod tests {
     use super::*;
     use crate::preconditions::learning::metrics::metrics;
     use crate::preconditions::learning::synthetic::rings;
+    use crate::preconditions::learning::training::{prices, train};
+    use crate::preconditions::learning::{libsvm_solver, linfa_solver};
 
     fn settings(kernel: Kernel) -> Settings {
         Settings {

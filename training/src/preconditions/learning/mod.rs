@@ -23,3 +23,4 @@ pub mod split;
 pub mod standardise;
 #[cfg(test)]
 mod synthetic;
+pub mod training;

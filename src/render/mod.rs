@@ -23,6 +23,7 @@ mod scene;
 mod series;
 mod style;
 mod timeline;
+mod track;
 mod video;
 
 use std::path::Path;
