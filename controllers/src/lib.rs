@@ -10,9 +10,8 @@
 //! | [`rest`](kinds::rest) | `rest` | lets go; the fallback |
 //! | [`pose`](kinds::pose) | `pose` | a state machine of target poses, as data |
 //!
-//! They share [`momentum`] (momentum control with its [`gains`]), [`problem`] and [`quadratic_program`] (its
-//! program and solver), [`servo`] (joint servos) and [`target`] (poses by joint name); `upright` is what
-//! balancing and stepping have in common.
+//! They share [`momentum`] (momentum control with its gains, its quadratic program and solver), [`servo`]
+//! (joint servos) and [`target`] (poses by joint name).
 
 pub mod kinds;
 pub mod momentum;

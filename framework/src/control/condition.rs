@@ -17,7 +17,7 @@ use crate::sensing::{Feature, Posture, Sensors};
 /// A region of situations. Bounds are inclusive; what is not a number lies in no bounds.
 ///
 /// ```
-/// # use aplomb_framework::{condition::Condition, model::Model, sensors::Sensors};
+/// # use aplomb_framework::{Condition, Model, Sensors};
 /// let text = r#"All([Posture([standing]), Within(feature: "com_height", min: 0.9)])"#;
 /// let condition: Condition = ron::from_str(text)?;
 /// let now = Sensors::new(&Model::load("humanoid")?, 9.81); // in the air
