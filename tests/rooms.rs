@@ -296,10 +296,17 @@ fn the_drawing_of_the_rooms_is_that_of_the_code() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(root);
         let arrows = between_folders(&arrows(&read(root), &folder));
         for place in order {
-            drawing += &format!("    {name}_{place}[{place}]\n");
-            for to in arrows.get(*place).into_iter().flatten() {
-                drawing += &format!("    {name}_{place} --> {name}_{to}\n");
+            drawing += &format!("    {name}_{place}[{place}]");
+            let to: Vec<String> = arrows
+                .get(*place)
+                .into_iter()
+                .flatten()
+                .map(|to| format!("{name}_{to}"))
+                .collect();
+            if !to.is_empty() {
+                drawing += &format!(" --> {}", to.join(" & "));
             }
+            drawing += "\n";
         }
         drawing += "  end\n";
     }
