@@ -5,6 +5,7 @@
 
 mod bad_files;
 mod bad_usage;
+mod bad_values;
 mod cmrt;
 mod compare;
 mod figures;

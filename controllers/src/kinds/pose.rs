@@ -10,12 +10,12 @@ use std::sync::Arc;
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Condition, Contract, Controller, Progress, Spec};
 use aplomb_framework::events::Unmet;
-use aplomb_framework::input::Result;
+use aplomb_framework::input::{Error, Result, check};
 use aplomb_framework::sensing::{Feature, Sensors};
 use serde::{Deserialize, Serialize};
 
 use crate::servo::{Servo, smoothstep};
-use crate::target::{NamedAngles, bounded, joints_named, mirrored, overlay};
+use crate::target::{NamedAngles, joints_named, mirrored, overlay};
 
 /// At most this many states.
 pub const MOST_STATES: usize = 64;
@@ -145,58 +145,66 @@ pub struct PoseController {
     missed: Option<Unmet>,
 }
 
+impl PoseState {
+    /// As the `i`th of so many states, still without a pose.
+    fn key(&self, i: usize, states: usize, model: &Model) -> Result<Key> {
+        check::within("duration", self.duration, 0.0..=3600.0)?;
+        check::within("ease", self.ease, 0.0..=1.0)?;
+        check::within("stiffness", self.stiffness, 0.0..=3.0)?;
+        let next = self.next.unwrap_or(i + 1);
+        let then = self.then.unwrap_or(next);
+        let most = states as f64;
+        check::within("next", next as f64, 0.0..=most)?;
+        check::within("then", then as f64, 0.0..=most)?;
+        let resolved = |field: &str, condition: &Condition| {
+            let mut condition = condition.clone();
+            let found = condition.resolve(model);
+            found.map(|()| condition).map_err(|e| e.inside(field))
+        };
+        Ok(Key {
+            pose: Vec::new(),
+            duration: self.duration,
+            ease: self.ease,
+            until: resolved("until", &self.until)?,
+            expects: resolved("expects", &self.expects)?,
+            stiffness: self.stiffness,
+            next,
+            then,
+        })
+    }
+}
+
 impl Spec for PoseSpec {
     const KIND: &'static str = "pose";
 
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
-        let place = contract.name.clone();
-        bounded(
-            &place,
-            "states",
-            self.states.len() as f64,
-            1.0,
-            MOST_STATES as f64,
-        )?;
-        bounded(&place, "damping", self.damping, 0.0, 1.0)?;
+        let count = self.states.len();
+        check::count("states", count, 1..=MOST_STATES, "states")?;
+        check::within("damping", self.damping, 0.0..=1.0)?;
         let joints = model.joint_count();
         let mut pose = vec![0.0; joints];
-        let mut keys = Vec::with_capacity(self.states.len());
+        let mut keys = Vec::with_capacity(count);
         for (i, state) in self.states.iter().enumerate() {
-            let at = format!("{place}: states[{i}]");
-            overlay(model, &state.pose, &at, [-7.0, 7.0], &mut pose)?;
-            bounded(&at, "duration", state.duration, 0.0, 3600.0)?;
-            bounded(&at, "ease", state.ease, 0.0, 1.0)?;
-            bounded(&at, "stiffness", state.stiffness, 0.0, 3.0)?;
-            let next = state.next.unwrap_or(i + 1);
-            let then = state.then.unwrap_or(next);
-            let most = self.states.len() as f64;
-            bounded(&at, "next", next as f64, 0.0, most)?;
-            bounded(&at, "then", then as f64, 0.0, most)?;
-            let mut until = state.until.clone();
-            until.resolve(model)?;
-            let mut expects = state.expects.clone();
-            expects.resolve(model)?;
-            keys.push(Key {
-                pose: if self.mirror {
-                    mirrored(model, &pose)
-                } else {
-                    pose.clone()
-                },
-                duration: state.duration,
-                ease: state.ease,
-                until,
-                expects,
-                stiffness: state.stiffness,
-                next,
-                then,
-            });
+            let of = |e: Error| e.inside(("states", i));
+            let posed = overlay(model, &state.pose, &mut pose);
+            posed.map_err(|e| of(e.inside("pose")))?;
+            let mut key = state.key(i, count, model).map_err(of)?;
+            key.pose = if self.mirror {
+                mirrored(model, &pose)
+            } else {
+                pose.clone()
+            };
+            keys.push(key);
         }
         let mut feedback = Vec::new();
-        for rule in &self.feedback {
-            bounded(&place, "feedback.gain", rule.gain, -100.0, 100.0)?;
+        for (i, rule) in self.feedback.iter().enumerate() {
+            let of = |e: Error| e.inside(("feedback", i));
+            check::within("gain", rule.gain, -100.0..=100.0).map_err(of)?;
             let mut feature = rule.feature.clone();
-            feature.resolve(model)?;
-            for joint in joints_named(model, &rule.joint)? {
+            let named = feature.resolve(model);
+            named.map_err(|e| of(e.inside("feature")))?;
+            let named = joints_named(model, &rule.joint);
+            for joint in named.map_err(|e| of(e.inside("joint")))? {
                 let joint = if self.mirror {
                     model.mirrored_joint(joint)
                 } else {
@@ -205,7 +213,8 @@ impl Spec for PoseSpec {
                 feedback.push((joint, feature.clone(), rule.gain));
             }
         }
-        contract.check_parameters(self.scaled_by.iter().chain(&self.slowed_by), &place)?;
+        contract.check_parameter("scaled_by", self.scaled_by.as_ref())?;
+        contract.check_parameter("slowed_by", self.slowed_by.as_ref())?;
         Ok(Box::new(PoseController {
             servo: Servo::new(model, 1.0, self.damping),
             scale: 1.0,

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::character::Model;
 use crate::control::boundary::Boundary;
 use crate::events::{Found, Unmet};
-use crate::input::{Error, Result};
+use crate::input::{Error, FieldPath, Result};
 use crate::sensing::{Feature, Posture, Sensors};
 
 /// A region of situations. Bounds are inclusive; what is not a number lies in no bounds.
@@ -76,20 +76,20 @@ pub struct Failure<'a> {
     pub clause: &'a Condition,
     /// The value of its feature, if it is about one; the score of a learned boundary.
     pub value: Option<f64>,
-    /// The posture at the time.
-    pub posture: Posture,
+    /// What was sensed.
+    pub now: &'a Sensors,
 }
 
 impl Condition {
     /// The first clause that does not hold now; none if the condition holds. Of alternatives
     /// none of which holds, the last one's refusal is told.
     #[must_use]
-    pub fn first_failure<'a>(&'a self, now: &Sensors) -> Option<Failure<'a>> {
+    pub fn first_failure<'a>(&'a self, now: &'a Sensors) -> Option<Failure<'a>> {
         let refused = |value| {
             Some(Failure {
                 clause: self,
                 value,
-                posture: now.posture,
+                now,
             })
         };
         match self {
@@ -176,11 +176,15 @@ impl Condition {
         visit: &mut impl FnMut(&Feature) -> Result<()>,
     ) -> Result<()> {
         match self {
-            Self::Within { feature, .. } => visit(feature),
+            Self::Within { feature, .. } => visit(feature).map_err(|e| e.inside("feature")),
             Self::All(list) | Self::Any(list) => {
-                list.iter().try_for_each(|c| c.each_feature(visit))
+                let mut clauses = list.iter().enumerate();
+                clauses
+                    .try_for_each(|(i, c)| c.each_feature(visit).map_err(|e| e.inside(clause(i))))
             }
-            Self::Not(c) => c.each_feature(visit),
+            Self::Not(c) => c
+                .each_feature(visit)
+                .map_err(|e| e.inside(FieldPath::inner())),
             Self::Always | Self::Never | Self::Posture(_) | Self::Svm(_) => Ok(()),
         }
     }
@@ -193,27 +197,35 @@ impl Condition {
     pub fn resolve(&mut self, model: &Model) -> Result<()> {
         match self {
             Self::Within { feature, min, max } => {
-                feature.resolve(model)?;
-                if min.is_nan() || max.is_nan() || min > max {
-                    return Err(Error::invalid(
-                        format!("Within(feature: \"{feature}\")"),
-                        "min, max",
-                        format!("{min}, {max}"),
-                        "two numbers with min ≤ max",
-                    ));
+                let named = feature.resolve(model);
+                named.map_err(|e| e.inside("feature"))?;
+                if max.is_nan() {
+                    return Err(Error::refused("max", max, "a number"));
+                }
+                if min.is_nan() || min > max {
+                    let accepted = format!("a number with min ≤ max, which is {max}");
+                    return Err(Error::refused("min", min, accepted));
                 }
             }
             Self::All(list) | Self::Any(list) => {
-                for c in list {
-                    c.resolve(model)?;
+                for (i, c) in list.iter_mut().enumerate() {
+                    c.resolve(model).map_err(|e| e.inside(clause(i)))?;
                 }
             }
-            Self::Not(c) => c.resolve(model)?,
-            Self::Svm(boundary) => Arc::make_mut(boundary).resolve(model)?,
+            Self::Not(c) => c.resolve(model).map_err(|e| e.inside(FieldPath::inner()))?,
+            Self::Svm(boundary) => {
+                let learned = Arc::make_mut(boundary).resolve(model);
+                learned.map_err(|e| e.inside(FieldPath::inner()))?;
+            }
             Self::Always | Self::Never | Self::Posture(_) => {}
         }
         Ok(())
     }
+}
+
+/// The way to a clause of `All([…])` or `Any([…])`.
+fn clause(place: usize) -> FieldPath {
+    FieldPath::inner().then(place)
 }
 
 impl fmt::Display for Condition {
@@ -258,11 +270,13 @@ impl Failure<'_> {
     pub fn unmet(&self) -> Unmet {
         let found = match (self.clause, self.value) {
             (Condition::Within { feature, .. }, Some(v)) if v.is_nan() => {
-                Found::Absent(feature.absence())
+                Found::Absent(feature.absence(self.now))
             }
-            (Condition::Svm(boundary), Some(v)) if v.is_nan() => Found::Absent(boundary.absence()),
+            (Condition::Svm(boundary), Some(v)) if v.is_nan() => {
+                Found::Absent(boundary.absence(self.now))
+            }
             (_, Some(v)) => Found::Value(v),
-            (Condition::Posture(_), None) => Found::State(self.posture.name().to_owned()),
+            (Condition::Posture(_), None) => Found::State(self.now.posture.name().to_owned()),
             _ => Found::Nothing,
         };
         Unmet {

@@ -56,7 +56,7 @@ impl Supervisor {
     /// [`Error::Invalid`] if the pool is empty, a name occurs twice, or the fallback is missing,
     /// has weight 0, or does not accept every state.
     pub fn new(name: &str, pool: Vec<Box<dyn Controller>>, fallback: &str) -> Result<Self> {
-        let place = pool::fallback(name, &pool, fallback)?;
+        let place = pool::fallback(&pool, fallback).map_err(|e| e.at(name))?;
         Ok(Self {
             contract: pool::contract(name, &pool),
             pool: pool.into_iter().map(Member::new).collect(),

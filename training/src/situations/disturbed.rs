@@ -46,7 +46,7 @@ impl Disturbed {
     ) -> Result<Self> {
         let pose = |start: &Nominal| {
             let mut pose = vec![0.0; model.joint_count()];
-            overlay(model, &start.angles, "angles", [-7.0, 7.0], &mut pose).map(|()| pose)
+            overlay(model, &start.angles, &mut pose).map(|()| pose)
         };
         Ok(Self {
             poses: disturbance.starts.iter().map(pose).collect::<Result<_>>()?,

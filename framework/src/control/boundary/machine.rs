@@ -10,7 +10,6 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::character::Model;
 use crate::control::boundary::kernel::DecisionFunction;
 use crate::input::{Result, Source};
 use crate::sensing::{Feature, Sensors};
@@ -30,7 +29,7 @@ pub struct Boundary {
     pub controller: String,
     /// Name of the character that it was learned with.
     pub character: String,
-    /// [`Model::digest`] of that character.
+    /// [`Model::digest`](crate::character::Model::digest) of that character.
     pub character_digest: String,
     /// What it looks at, 1 to [`MOST_FEATURES`], none of them twice; x below.
     pub features: Vec<Feature>,
@@ -80,17 +79,8 @@ impl Boundary {
     /// Unknown features, wrong counts, numbers out of bounds: with file, line and field.
     pub fn parse(source: &Source) -> Result<Self> {
         let boundary: Self = source.parse()?;
-        boundary.check(&|field| source.place(field))?;
+        boundary.check().map_err(|e| source.locate(e))?;
         Ok(boundary)
-    }
-
-    /// Looks up the joints that its features name, and checks everything.
-    ///
-    /// # Errors
-    /// As [`Self::parse`]; another character than the one it was learned with; an unknown joint.
-    pub fn resolve(&mut self, model: &Model) -> Result<()> {
-        let place = format!("Svm(controller: \"{}\")", self.controller);
-        self.resolve_at(model, &|_| place.clone())
     }
 
     /// The score of raw feature values, in the order and units of the features. 0 or more: success
@@ -126,8 +116,12 @@ impl Boundary {
 
     /// Why it has no score, where it has none.
     #[must_use]
-    pub fn absence(&self) -> String {
-        "one of its features has no value".to_owned()
+    pub fn absence(&self, now: &Sensors) -> String {
+        let absent = self.features.iter().find(|f| f.value(now).is_nan());
+        absent.map_or_else(
+            || "its score is no number".to_owned(),
+            |f| format!("{f} has no value: {}", f.absence(now)),
+        )
     }
 
     /// As [`Calibration::probability`].
@@ -155,6 +149,7 @@ impl fmt::Display for Boundary {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::character::Model;
     use crate::control::boundary::bounds::monomials;
     use std::sync::LazyLock;
 
