@@ -14,6 +14,14 @@
 //! program and solver), [`servo`] (joint servos) and [`target`] (poses by joint name); `upright` is what
 //! balancing and stepping have in common.
 
+#![cfg_attr(
+    test,
+    allow(
+        clippy::disallowed_methods,
+        reason = "tests compare with the standard library's functions"
+    )
+)]
+
 pub mod kinds;
 pub mod momentum;
 pub mod servo;
