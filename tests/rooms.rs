@@ -11,6 +11,7 @@ const CRATES: [(&str, &[&str]); 4] = [
     (
         "framework/src",
         &[
+            "math",
             "input",
             "events",
             "character",

@@ -13,6 +13,14 @@
 //! They share [`momentum`] (momentum control with its gains, its quadratic program and solver), [`servo`]
 //! (joint servos) and [`target`] (poses by joint name).
 
+#![cfg_attr(
+    test,
+    allow(
+        clippy::disallowed_methods,
+        reason = "tests compare with the standard library's functions"
+    )
+)]
+
 pub mod kinds;
 pub mod momentum;
 pub mod servo;

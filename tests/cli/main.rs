@@ -2,6 +2,10 @@
 //! stderr out.
 
 #![allow(clippy::unwrap_used)]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the standard library's functions"
+)]
 
 mod bad_files;
 mod bad_usage;

@@ -15,6 +15,8 @@ fn trials_are_told_as_json() {
     assert_eq!(trials["seed"], 0);
     assert_eq!(trials["interrupted"], false);
     assert_eq!(trials["simulated_s"], 15.0);
+    let digest = trials["digest"].as_str().unwrap();
+    assert_eq!(digest.len(), 32, "{digest}");
     assert!(trials["short_activations"].is_u64());
     let number = |v: &Value| v.as_f64().unwrap();
     let fraction = number(&trials["standing"]) / 6.0;

@@ -5,6 +5,7 @@
 
 use crate::control::Condition;
 use crate::input::{Error, Result};
+use crate::math::hypot;
 use crate::scenario::{Expectation, Number, Quantity, Scenario};
 use crate::sensing::Sensors;
 use crate::world::World;
@@ -227,7 +228,7 @@ impl Watch {
 
 /// What keeps a character from being balanced now.
 fn unbalanced(now: &Sensors) -> Option<String> {
-    let speed = now.com_velocity[0].hypot(now.com_velocity[1]);
+    let speed = hypot(now.com_velocity[0], now.com_velocity[1]);
     let com = now.com[0];
     match now.base_of_support {
         None => Some("no foot supports it at the end".to_owned()),

@@ -4,6 +4,7 @@
 
 use crate::character::Point;
 use crate::input::{Error, Result};
+use crate::math::{hypot, sin_cos};
 use crate::scenario::file::Scenario;
 use crate::scenario::number::Number;
 use crate::scenario::props::{HingeEntry, PropEntry};
@@ -14,7 +15,7 @@ const APART: f64 = 0.05;
 
 /// A point of a prop's frame at the beginning, in the world, m.
 fn to_world(prop: &Prop, [x, y]: Point) -> Point {
-    let (sin, cos) = prop.angle.sin_cos();
+    let (sin, cos) = sin_cos(prop.angle);
     let [px, py] = prop.position;
     [px + cos * x - sin * y, py + sin * x + cos * y]
 }
@@ -90,13 +91,13 @@ impl Scenario {
             (Some(given), _) => self.point(given).map_err(|e| e.inside("to_at"))?,
             (None, None) => [x, y],
             (None, Some(to)) => {
-                let (sin, cos) = to.angle.sin_cos();
+                let (sin, cos) = sin_cos(to.angle);
                 let [dx, dy] = [x - to.position[0], y - to.position[1]];
                 [cos * dx + sin * dy, cos * dy - sin * dx]
             }
         };
         let [there_x, there_y] = to.as_ref().map_or(to_at, |t| to_world(t, to_at));
-        let apart = (there_x - x).hypot(there_y - y);
+        let apart = hypot(there_x - x, there_y - y);
         if apart.is_nan() || apart > APART {
             return wrong(
                 "to_at",

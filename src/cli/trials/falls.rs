@@ -5,6 +5,7 @@
 
 use aplomb::framework::character::Model;
 use aplomb::framework::events::EventKind;
+use aplomb::framework::math::hypot;
 use aplomb::framework::sensing::Sensors;
 use aplomb::training::exercise::Impact;
 
@@ -142,7 +143,7 @@ impl Watch {
             self.upright = true;
             self.falls.extend(self.falling.take());
         }
-        if now.com_velocity[0].hypot(now.com_velocity[1]) > REST {
+        if hypot(now.com_velocity[0], now.com_velocity[1]) > REST {
             self.resting = None;
         } else if now.time - *self.resting.get_or_insert(now.time) > RESTED {
             self.falls.extend(self.falling.take());
@@ -161,7 +162,7 @@ impl Watch {
             fall.trunk_force = fall.trunk_force.max(self.impact.trunk);
         }
         let v = now.kinematics.links[now.model.head].com_velocity;
-        self.head_speed = v[0].hypot(v[1]);
+        self.head_speed = hypot(v[0], v[1]);
     }
 
     /// All falls, the last one possibly not over, and the time to standing of [`Rising`].

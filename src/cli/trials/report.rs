@@ -34,6 +34,8 @@ pub(super) struct Report {
     simulated_s: f64,
     steps_per_s: f64,
     interrupted: bool,
+    /// Of the trials that are finished: equal if and only if every step of each is.
+    digest: String,
     controllers: BTreeMap<String, Activations>,
     switches_per_minute: f64,
     short_activations: u64,
@@ -88,6 +90,7 @@ impl Report {
             simulated_s,
             steps_per_s: tally.steps as f64 / wall_s.max(1e-9),
             interrupted,
+            digest: tally.digest(),
             switches_per_minute: tally.switches as f64 * 60.0 / simulated_s.max(1e-9),
             short_activations: tally.short_activations,
             falls: FallsReport::new(&tally.forward, &tally.backward),

@@ -4,6 +4,7 @@
 
 use aplomb_framework::control::{Condition, Contract, Supervisor};
 use aplomb_framework::events::{EventKind, Reason};
+use aplomb_framework::math::cos;
 use aplomb_framework::run::Simulation;
 use aplomb_framework::sensing::{Posture, Sensors};
 
@@ -197,7 +198,7 @@ fn nearness(now: &Sensors, goal: Goal, barred: Option<f64>) -> f64 {
             let pitch = now.trunk_pitch();
             let turned = match barred {
                 Some(barred) => turned_round(pitch, aim, barred),
-                None => 0.5 * (1.0 + (pitch - aim).cos()),
+                None => 0.5 * (1.0 + cos(pitch - aim)),
             };
             let there = f64::from(u8::from(now.posture == posture));
             0.8 * turned + 0.2 * there

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Registry, repertoire};
 use aplomb_framework::input::{Result, Source};
+use aplomb_framework::math::square;
 use aplomb_framework::run::Simulation;
 use aplomb_framework::scenario::Scenario;
 
@@ -111,7 +112,7 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
                 .angles()
                 .iter()
                 .zip(&before)
-                .map(|(a, b)| (a - b).powi(2));
+                .map(|(a, b)| square(a - b));
             slouch = (apart.sum::<f64>() / before.len() as f64).sqrt();
         } else if run.outcome(0).standing {
             break;

@@ -4,6 +4,7 @@
 //! [`Motion`] + the command's parameters → [`Timeline`] → phase and weight of the task at a time.
 
 use aplomb_framework::input::{Error, Result, check};
+use aplomb_framework::math::powf;
 use serde::{Deserialize, Serialize};
 
 use crate::kinds::cmrt::trajectory;
@@ -82,7 +83,7 @@ impl GainSchedule {
     /// of powers of ten.
     #[must_use]
     pub fn scaled(&self, gains: &Gains, part: f64) -> Gains {
-        let by = |factor: f64| factor.powf(part);
+        let by = |factor: f64| powf(factor, part);
         Gains {
             tracking: gains.tracking * by(self.tracking),
             kt: gains.kt * by(self.kt),

@@ -2,6 +2,7 @@
 //!
 //! normalised features → score.
 
+use crate::math::exp;
 use serde::{Deserialize, Serialize};
 
 /// The decision function of the normalised features z. 0 or more: success is expected.
@@ -50,7 +51,7 @@ impl DecisionFunction {
             } => {
                 let term = |(weight, s): (&f64, &Vec<f64>)| {
                     let squares = z.iter().zip(s).map(|(z, s)| (z - s) * (z - s));
-                    weight * (-gamma * squares.sum::<f64>()).exp()
+                    weight * exp(-gamma * squares.sum::<f64>())
                 };
                 weights.iter().zip(support).map(term).sum::<f64>() + offset
             }

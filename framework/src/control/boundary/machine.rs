@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::boundary::kernel::DecisionFunction;
 use crate::input::{Result, Source};
+use crate::math::exp;
 use crate::sensing::{Feature, Sensors};
 
 /// At most this many features a boundary, so that they fit into an array on the stack.
@@ -59,7 +60,7 @@ impl Calibration {
     /// Probability of success at a score, 0 to 1; 0 at what is not a number.
     #[must_use]
     pub fn probability(&self, score: f64) -> f64 {
-        let p = 1.0 / (1.0 + (self.slope * score + self.offset).exp());
+        let p = 1.0 / (1.0 + exp(self.slope * score + self.offset));
         if p.is_nan() { 0.0 } else { p }
     }
 }

@@ -9,6 +9,7 @@ use aplomb_controllers::target::NamedAngles;
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Contract, ControllerFile, Spec};
 use aplomb_framework::input::{Result, Source, options};
+use aplomb_framework::math::log10;
 use serde::Serialize;
 
 use crate::search::cma_es::{Best, Search, minimise};
@@ -50,7 +51,7 @@ pub fn at<T: Tunable>(base: &T, model: &Model, point: &[f64]) -> T {
     for (d, u) in around(base, model).iter().zip(point) {
         // Five digits are more than the search can tell apart, and read well.
         let value = d.value(*u);
-        let digits = (4 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 9) as usize;
+        let digits = (4 - log10(value.abs().max(1e-9)).floor() as i32).clamp(0, 9) as usize;
         *spec.slot(&d.name) = format!("{value:.digits$}").parse().unwrap_or(value);
     }
     spec.settle();
