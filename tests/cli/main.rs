@@ -7,6 +7,7 @@ mod bad_files;
 mod bad_usage;
 mod cmrt;
 mod compare;
+mod export;
 mod figures;
 mod help;
 mod output;

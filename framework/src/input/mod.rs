@@ -7,4 +7,4 @@ mod error;
 mod file;
 
 pub use error::{Error, Result, nearest, shortened};
-pub use file::{LARGEST_TEXT, Source, options, read_bounded, write_atomically};
+pub use file::{LARGEST_TEXT, Source, options, read_bounded, stream_atomically, write_atomically};
