@@ -5,6 +5,7 @@
 mod clips;
 mod compare;
 mod controllers;
+mod export;
 mod json;
 mod output;
 mod progress;
@@ -60,6 +61,7 @@ enum Command {
     Compare(compare::CompareArgs),
     Robustness(robustness::RobustnessArgs),
     Render(render::RenderArgs),
+    Export(export::ExportArgs),
 }
 
 /// What a finished subcommand tells the shell.
@@ -86,6 +88,7 @@ impl Cli {
             Some(Command::Compare(args)) => args.run(out),
             Some(Command::Robustness(args)) => args.run(out),
             Some(Command::Render(args)) => args.run(out),
+            Some(Command::Export(args)) => args.run(out),
         }
     }
 }

@@ -12,6 +12,7 @@ mod bad_usage;
 mod bad_values;
 mod cmrt;
 mod compare;
+mod export;
 mod figures;
 mod help;
 mod output;

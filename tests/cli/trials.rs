@@ -35,10 +35,16 @@ fn trials_are_told_as_json() {
     assert!(falls["forward"]["hands_first"].is_u64());
     assert!(falls["backward"]["hands_or_seat_first"].is_u64());
     assert!(falls["head_hits"].is_u64());
-    for key in ["median_head_force", "median_trunk_force"] {
-        assert!(falls["forward"][key].is_number(), "{key}");
-        assert!(falls["backward"][key].is_number(), "{key}");
+    let ways = ["forward", "backward"].map(|way| &falls[way]);
+    for fall in [ways[0], ways[1], falls] {
+        assert!(fall["median_trunk_force"].is_number());
+        let hits = fall["head_hits"].as_u64().unwrap();
+        let [median, p95] = ["median_head_hit_speed", "p95_head_hit_speed"].map(|k| &fall[k]);
+        assert_eq!(hits > 0, median.is_number(), "{fall}");
+        assert!(hits == 0 || number(median) <= number(p95), "{fall}");
     }
+    let hits = ways.map(|w| w["head_hits"].as_u64().unwrap());
+    assert_eq!(falls["head_hits"], hits[0] + hits[1]);
     assert!(trials["time_to_stand"].is_null());
     let failures = trials["failures"].as_array().unwrap();
     assert_eq!(
@@ -185,7 +191,10 @@ fn who_falls_limp_lets_go_and_breaks_no_fall() {
         (&0.into(), &12.into())
     );
     assert_eq!(trials["controllers"]["rest"]["activations"], 12);
-    // More than the weight of it.
-    let force = |key: &str| trials["falls"][key].as_f64().unwrap();
-    assert!(force("median_head_force") > 800.0 && force("median_trunk_force") > 800.0);
+    // Who lets go hits the head, and harder than with its weight.
+    let falls = &trials["falls"];
+    assert!(falls["head_hits"].as_u64().unwrap() >= 6, "{falls}");
+    let more = |key: &str, least: f64| falls[key].as_f64().unwrap() > least;
+    assert!(more("median_head_hit_force", 800.0) && more("median_trunk_force", 800.0));
+    assert!(more("median_head_hit_speed", 1.0));
 }

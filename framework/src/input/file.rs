@@ -169,6 +169,18 @@ pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>> {
 /// # Errors
 /// [`Error::Write`]; an existing file is then as it was.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
+    stream_atomically(path, |file| file.write_all(bytes))
+}
+
+/// As [`write_atomically`], for what is too long to be held in memory: `write` gets the temporary
+/// file, unbuffered.
+///
+/// # Errors
+/// [`Error::Write`], also with what `write` fails with; an existing file is then as it was.
+pub fn stream_atomically(
+    path: &Path,
+    write: impl FnOnce(&mut File) -> std::io::Result<()>,
+) -> Result<()> {
     let fail = |e: std::io::Error| Error::Write {
         path: path.to_owned(),
         reason: e.to_string(),
@@ -183,7 +195,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
         .suffix(".partial")
         .tempfile_in(folder)
         .map_err(fail)?;
-    temporary.write_all(bytes).map_err(fail)?;
+    write(temporary.as_file_mut()).map_err(fail)?;
     readable_by_all(temporary.as_file()).map_err(fail)?;
     temporary.persist(path).map_err(|e| fail(e.error))?;
     Ok(())
@@ -216,6 +228,20 @@ mod tests {
             std::fs::read_dir(path.parent().unwrap()).unwrap().count(),
             1
         );
+    }
+
+    #[test]
+    fn a_stream_that_fails_leaves_the_old_file_and_no_temporary() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x.txt");
+        write_atomically(&path, b"one").unwrap();
+        let failed = stream_atomically(&path, |file| {
+            file.write_all(b"half")?;
+            Err(std::io::Error::other("no more room"))
+        });
+        assert!(failed.unwrap_err().to_string().contains("no more room"));
+        assert_eq!(std::fs::read(&path).unwrap(), b"one");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
     #[test]

@@ -11,5 +11,5 @@ mod locate;
 mod path;
 
 pub use error::{Error, Result, nearest, shortened};
-pub use file::{LARGEST_TEXT, Source, options, read_bounded, write_atomically};
+pub use file::{LARGEST_TEXT, Source, options, read_bounded, stream_atomically, write_atomically};
 pub use path::FieldPath;

@@ -12,7 +12,7 @@ use crate::cli::output::write_json;
 use super::falls_report::FallsReport;
 use super::plan::Plan;
 use super::tally::{Activations, Failure, Tally};
-use crate::cli::statistics::{median, percentile90, wilson};
+use crate::cli::statistics::{median, percentile, wilson};
 
 /// So many failures are told in text.
 const FAILURES_TOLD: usize = 10;
@@ -66,7 +66,7 @@ impl TimeToStand {
         Some(Self {
             count: times.len() as u64,
             median: median(times)?,
-            p90: percentile90(times)?,
+            p90: percentile(times, 90)?,
             max: times.iter().copied().fold(0.0, f64::max),
         })
     }

@@ -8,7 +8,7 @@ use aplomb::framework::events::{EventKind, Reason, Role};
 use serde::Serialize;
 use xxhash_rust::xxh3::xxh3_128;
 
-use super::falls::Fall;
+use super::falls::{Fall, HeadHit};
 use super::plan::Trial;
 
 /// s; shorter activations are told, unless a failure or a command ended them.
@@ -39,10 +39,8 @@ pub(super) struct Falls {
     pub(super) count: u64,
     /// See [`Fall::broken_well`].
     pub(super) broken_well: u64,
-    /// m/s, of the falls in which the head touched.
-    pub(super) head_speeds: Vec<f64>,
-    /// N, see [`Fall::head_force`].
-    pub(super) head_forces: Vec<f64>,
+    /// Of the falls in which the head touched.
+    pub(super) head_hits: Vec<HeadHit>,
     /// N, see [`Fall::trunk_force`].
     pub(super) trunk_forces: Vec<f64>,
 }
@@ -186,8 +184,7 @@ impl Falls {
     fn take(&mut self, fall: &Fall) {
         self.count += 1;
         self.broken_well += u64::from(fall.broken_well());
-        self.head_speeds.extend(fall.head_speed);
-        self.head_forces.push(fall.head_force);
+        self.head_hits.extend(fall.head_hit());
         self.trunk_forces.push(fall.trunk_force);
     }
 
@@ -195,8 +192,7 @@ impl Falls {
     pub(super) fn merge(&mut self, other: Self) {
         self.count += other.count;
         self.broken_well += other.broken_well;
-        self.head_speeds.extend(other.head_speeds);
-        self.head_forces.extend(other.head_forces);
+        self.head_hits.extend(other.head_hits);
         self.trunk_forces.extend(other.trunk_forces);
     }
 }
