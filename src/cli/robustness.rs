@@ -16,6 +16,7 @@ use aplomb::training::situations::Worlds;
 use clap::Args;
 use serde::Serialize;
 
+use super::arguments::{Json, Seed};
 use super::output::{message, write_json};
 use super::scene::CastArgs;
 use super::train::skills;
@@ -51,15 +52,12 @@ pub(super) struct RobustnessArgs {
     #[arg(long, value_name = "N", default_value = "200",
           value_parser = whole(1, 10_000), allow_negative_numbers = true)]
     starts: u64,
-    /// Fixes everything random
-    #[arg(long, value_name = "N", default_value = "0",
-          value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
-    seed: u64,
+    #[command(flatten)]
+    seed: Seed,
     #[command(flatten)]
     jobs: work::Jobs,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// One world.
@@ -113,12 +111,12 @@ impl RobustnessArgs {
         }
         let report = Report {
             starts: self.starts,
-            seed: self.seed,
+            seed: self.seed.value,
             wall_s: begun.elapsed().as_secs_f64(),
             interrupted,
             controllers: rows,
         };
-        if self.json {
+        if self.json.wanted {
             write_json(out, &report)?;
         } else {
             print(out, &report)?;
@@ -163,7 +161,7 @@ impl RobustnessArgs {
             let drill = Drill::cell(
                 Worlds::single(friction, torque),
                 self.starts as usize,
-                self.seed,
+                self.seed.value,
             );
             let exercises = Exercise::all(&skills, drill, |found| {
                 bar.set_position(before + found as u64);

@@ -17,6 +17,7 @@ use indicatif::ProgressBar;
 use serde::Serialize;
 
 use super::skills;
+use crate::cli::arguments::{Json, Resume, Seed};
 use crate::cli::output::{check_writable, message, write_json};
 use crate::cli::scene::CastArgs;
 use crate::cli::values::{number, whole};
@@ -56,10 +57,8 @@ pub(in crate::cli) struct SkillArgs {
     #[arg(long, value_name = "N", default_value = "32",
           value_parser = whole(1, 10_000), allow_negative_numbers = true)]
     starts: u64,
-    /// Fixes everything random
-    #[arg(long, value_name = "N", default_value = "0",
-          value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
-    seed: u64,
+    #[command(flatten)]
+    seed: Seed,
     /// Width of the search at its beginning, relative to the ranges of the numbers
     #[arg(long, value_name = "S", default_value = "0.1",
           value_parser = number(0.001, 1.0, "of the ranges"), allow_negative_numbers = true)]
@@ -69,12 +68,10 @@ pub(in crate::cli) struct SkillArgs {
     /// The controller file that is written [default: CONTROLLER.ron]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Goes on with the search whose journal is beside the output
-    #[arg(long)]
-    resume: bool,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    resume: Resume,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// Names are a contract with other people's scripts.
@@ -117,7 +114,7 @@ impl SkillArgs {
         let report = Report {
             controller: skill.name(),
             kind: skill.kind(),
-            seed: self.seed,
+            seed: self.seed.value,
             evaluations: found.evaluations,
             starts: found.starts,
             reached: found.best.reached,
@@ -128,7 +125,7 @@ impl SkillArgs {
             interrupted,
             out: file.display().to_string(),
         };
-        if self.json {
+        if self.json.wanted {
             write_json(out, &report)?;
         } else {
             print(out, &report)?;
@@ -140,10 +137,10 @@ impl SkillArgs {
         let plan = Plan {
             evaluations: self.evaluations as usize,
             starts: self.starts as usize,
-            seed: self.seed,
+            seed: self.seed.value,
             sigma: self.sigma,
             out: file,
-            resume: self.resume,
+            resume: self.resume.wanted,
         };
         let mut bars = Bars::new(self);
         let found = improve::improve(skill, plan, |stage| {
@@ -151,7 +148,7 @@ impl SkillArgs {
             work::going_on(stop)
         });
         bars.bar.finish_and_clear();
-        let found = if self.resume {
+        let found = if self.resume.wanted {
             found.context("--resume")?
         } else {
             found?
