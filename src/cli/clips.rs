@@ -11,9 +11,10 @@ use aplomb::training::anticipation::objective::Judged;
 use clap::Args;
 use serde::Serialize;
 
+use super::arguments::{ClipSettings, Json, Seed};
 use super::output::write_json;
 use super::scene::set_all;
-use super::values::{Setting, whole};
+use super::values::Setting;
 use super::{Verdict, work};
 
 /// List the clips, and measure them without and with anticipation
@@ -31,18 +32,14 @@ pub(super) struct ClipsArgs {
     /// Shipped clips (fast_bend for the scenario clips/fast_bend) or scenario files; all shipped ones
     /// if left out
     clips: Vec<String>,
-    /// Sets a parameter of the clips; repeatable
-    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
-    set: Vec<Setting>,
-    /// Fixes the starts
-    #[arg(long, value_name = "N", default_value = "0",
-          value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
-    seed: u64,
+    #[command(flatten)]
+    settings: ClipSettings,
+    #[command(flatten)]
+    seed: Seed,
     #[command(flatten)]
     jobs: work::Jobs,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// One clip. Names are a contract with other people's scripts.
@@ -69,11 +66,11 @@ impl ClipsArgs {
         };
         let threads = self.jobs.threads()?;
         let row = |name: &String| {
-            let clip = load(name, &self.set, None)?;
-            threads.install(|| Row::new(&clip, self.seed))
+            let clip = load(name, &self.settings.set, None)?;
+            threads.install(|| Row::new(&clip, self.seed.value))
         };
         let rows = names.iter().map(row).collect::<Result<Vec<Row>>>()?;
-        if self.json {
+        if self.json.wanted {
             write_json(out, &rows)?;
         } else {
             print(out, &rows)?;

@@ -2,6 +2,7 @@
 //!
 //! arguments → subcommand → results on stdout, progress and messages on stderr, exit code.
 
+mod arguments;
 mod clips;
 mod compare;
 mod controllers;

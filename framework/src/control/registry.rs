@@ -35,6 +35,9 @@ pub struct ControllerFile {
     pub kind: String,
     /// What the controller promises.
     pub contract: Contract,
+    /// What the controller is measured by, for those who train and measure it; not read here.
+    #[serde(default)]
+    pub exercise: Option<Box<RawValue>>,
     /// The kind's parameters.
     #[serde(default = "empty")]
     pub spec: Box<RawValue>,

@@ -87,6 +87,21 @@ impl Supervisor {
         Self::new(&self.contract.name, pool, &fallback)
     }
 
+    /// The pool of one controller and the fallback.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if there is none of this name.
+    pub fn alone(&self, name: &str) -> Result<Self> {
+        let known = || self.controllers().map(|c| c.contract().name.as_str());
+        if !known().any(|n| n == name) {
+            return Err(Error::unknown("controller", name, known()));
+        }
+        let fallback = self.name(self.fallback).to_owned();
+        let kept = |c: &&dyn Controller| [name, &fallback].contains(&c.contract().name.as_str());
+        let pool = self.controllers().filter(kept).map(Controller::clone_box);
+        Self::new(&self.contract.name, pool.collect(), &fallback)
+    }
+
     /// The pool.
     pub fn controllers(&self) -> impl Iterator<Item = &dyn Controller> {
         self.pool.iter().map(|m| &*m.controller)

@@ -17,6 +17,7 @@ use serde::Serialize;
 
 use super::cmrt::{SearchArgs, shown};
 use super::figures::Figures;
+use crate::cli::arguments::{Json, Resume};
 use crate::cli::output::{check_writable, message, write_json};
 use crate::cli::values::{Setting, whole};
 use crate::cli::{Verdict, work};
@@ -54,12 +55,10 @@ pub(in crate::cli) struct BasisArgs {
     /// that these explain
     #[arg(long, value_name = "DIR")]
     figures: Option<PathBuf>,
-    /// Goes on with the searches whose journals are beside the output
-    #[arg(long)]
-    resume: bool,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    resume: Resume,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// A parameter with its range.
@@ -143,7 +142,7 @@ impl BasisArgs {
             });
         }
         let values = family.iter().map(|c| c.value).collect();
-        let (key, seed) = (&self.over.key, self.search.seed);
+        let (key, seed) = (&self.over.key, self.search.seed.value);
         let components = self.components as usize;
         let basis = Basis::new(&self.clip, key, seed, family, components)?;
         basis.write(&file)?;
@@ -161,7 +160,7 @@ impl BasisArgs {
             wall_s: begun.elapsed().as_secs_f64(),
             out: file.display().to_string(),
         };
-        if self.json {
+        if self.json.wanted {
             write_json(out, &report)?;
         } else {
             print(out, &report)?;
@@ -188,7 +187,7 @@ impl BasisArgs {
         let keep = Keep {
             journal: &journal,
             // The search that was interrupted may not have come to this one.
-            resume: self.resume && journal.exists(),
+            resume: self.resume.wanted && journal.exists(),
         };
         shown(&clip, &plan, keep, stop)
     }

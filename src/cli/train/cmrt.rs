@@ -22,6 +22,7 @@ use cpu_time::ProcessTime;
 use serde::Serialize;
 
 use super::figures::Figures;
+use crate::cli::arguments::{ClipSettings, Json, Resume, Seed};
 use crate::cli::output::{check_writable, message, write_json};
 use crate::cli::values::{Setting, number, whole};
 use crate::cli::{Verdict, clips, progress, work};
@@ -61,20 +62,17 @@ pub(in crate::cli) struct CmrtArgs {
     /// trajectory, the search's convergence, a film strip of either run
     #[arg(long, value_name = "DIR")]
     figures: Option<PathBuf>,
-    /// Goes on with the search whose journal is beside the output
-    #[arg(long)]
-    resume: bool,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    resume: Resume,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// What searches for trajectories have in common.
 #[derive(Debug, Args)]
 pub(super) struct SearchArgs {
-    /// Sets a parameter of the clip; repeatable
-    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
-    pub(super) set: Vec<Setting>,
+    #[command(flatten)]
+    pub(super) settings: ClipSettings,
     /// Place of the motion that is optimised, where the clip has several in a row; those after it do
     /// not count
     #[arg(long, value_name = "N", default_value = "0",
@@ -100,10 +98,8 @@ pub(super) struct SearchArgs {
     #[arg(long, value_name = "X", default_value = "0",
           value_parser = number(0.0, 1e6, ""), allow_negative_numbers = true)]
     pub(super) threshold: f64,
-    /// Fixes everything random
-    #[arg(long, value_name = "N", default_value = "0",
-          value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
-    pub(super) seed: u64,
+    #[command(flatten)]
+    pub(super) seed: Seed,
     #[command(flatten)]
     pub(super) jobs: work::Jobs,
 }
@@ -156,9 +152,9 @@ impl CmrtArgs {
         let (begun, cpu) = (Instant::now(), ProcessTime::now());
         let keep = Keep {
             journal: &journal,
-            resume: self.resume,
+            resume: self.resume.wanted,
         };
-        let seed = self.search.seed;
+        let seed = self.search.seed.value;
         let (flat, found, optimised) = self.search.jobs.threads()?.install(|| {
             let flat = Judged::new(&clip, None, seed)?;
             let found = shown(&clip, &plan, keep, &stop)?;
@@ -194,7 +190,7 @@ impl CmrtArgs {
                 "interrupted after {n} evaluations; --resume goes on"
             ));
         }
-        if self.json {
+        if self.json.wanted {
             write_json(out, &report)?;
         } else {
             print(out, &report)?;
@@ -211,7 +207,7 @@ impl SearchArgs {
 
     /// The same with further parameters.
     pub(super) fn clip_with(&self, name: &str, further: &[Setting]) -> Result<Clip> {
-        let all: Vec<Setting> = self.set.iter().chain(further).cloned().collect();
+        let all: Vec<Setting> = self.settings.set.iter().chain(further).cloned().collect();
         clips::load(name, &all, Some(self.motion as usize))
     }
 
@@ -228,7 +224,7 @@ impl SearchArgs {
             least: self.least as usize,
             threshold: self.threshold,
             starts: self.starts as usize,
-            seed: self.seed,
+            seed: self.seed.value,
             start: None,
         }
     }

@@ -25,6 +25,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::skills;
+use crate::cli::arguments::{Json, Seed};
 use crate::cli::output::{message, write_json};
 use crate::cli::scene::CastArgs;
 use crate::cli::values::whole;
@@ -75,10 +76,8 @@ pub(in crate::cli) struct PreconditionsArgs {
     /// Distribution of starts and disturbances [default: the shipped one of the controller]
     #[arg(long, value_name = "FILE")]
     disturbance: Option<PathBuf>,
-    /// Fixes everything random
-    #[arg(long, value_name = "N", default_value = "0",
-          value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
-    seed: u64,
+    #[command(flatten)]
+    seed: Seed,
     #[command(flatten)]
     jobs: work::Jobs,
     /// Folder that is written to
@@ -87,9 +86,8 @@ pub(in crate::cli) struct PreconditionsArgs {
     /// Goes on with what is in the folder
     #[arg(long)]
     resume: bool,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// Kernels to choose from.
@@ -146,13 +144,13 @@ impl PreconditionsArgs {
                 message(format_args!("interrupted; --resume goes on"));
                 break;
             };
-            if !self.json {
+            if !self.json.wanted {
                 print(out, &row)?;
                 out.flush()?;
             }
             rows.push(row);
         }
-        if self.json {
+        if self.json.wanted {
             write_json(out, &rows)?;
         }
         Ok(Verdict::Done)
@@ -178,7 +176,7 @@ impl PreconditionsArgs {
         let subject = Subject {
             controller: skill.name(),
             character: &skill.model.name,
-            seed: self.seed,
+            seed: self.seed.value,
         };
         let settings = LearnSettings {
             kernels: self.kernel.0.clone(),
@@ -238,7 +236,7 @@ impl PreconditionsArgs {
         };
         let plan = Plan {
             trial,
-            header: header(skill, source, part, self.seed, count as usize),
+            header: header(skill, source, part, self.seed.value, count as usize),
             files: Files::of(&self.out, skill.name(), part),
             resume: self.resume,
         };

@@ -23,6 +23,7 @@ use super::output::{check_writable, message, write_recording};
 use super::scene::{SceneArgs, record};
 use super::values::{STRONGEST, duration, number, whole};
 use super::{Verdict, progress, timeline, work};
+use crate::cli::arguments::Json;
 use plan::{Plan, Trial};
 use report::Report;
 use tally::Tally;
@@ -87,9 +88,8 @@ pub(super) struct TrialsArgs {
     record: Option<PathBuf>,
     #[command(flatten)]
     jobs: work::Jobs,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: Json,
 }
 
 impl TrialsArgs {
@@ -111,7 +111,7 @@ impl TrialsArgs {
             ));
         }
         let report = Report::new(&plan, tally, wall_s, interrupted);
-        if self.json {
+        if self.json.wanted {
             report.write_json(out, None)?;
         } else {
             report.print(out, &plan)?;
@@ -185,7 +185,7 @@ impl TrialsArgs {
         } = staged;
         // Told once the recording is written: a reader that leaves early does not lose it.
         let mut told = Vec::new();
-        if self.json {
+        if self.json.wanted {
             let mut tally = Tally::new(plan.pool());
             tally.take(&trial);
             let run = RunJson::new(&simulation, &scenario, wall_s, false);

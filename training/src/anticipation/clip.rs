@@ -175,13 +175,13 @@ impl Clip {
     /// The controller's file with one more trajectory, in the place of one for the same value.
     #[must_use]
     pub fn text(&self, cmrt: &Cmrt, comment: &str) -> String {
-        text_of(&self.skill.file.contract, &self.with(cmrt), comment)
+        text_of(&self.skill.file.contract, None, &self.with(cmrt), comment)
     }
 
     /// The same in one line.
     #[must_use]
     pub fn line(&self, cmrt: &Cmrt) -> String {
-        line_of(&self.skill.file.contract, &self.with(cmrt))
+        line_of(&self.skill.file.contract, None, &self.with(cmrt))
     }
 
     fn with(&self, cmrt: &Cmrt) -> CmrtSpec {

@@ -125,13 +125,13 @@ mod tests {
     use aplomb_framework::control::repertoire;
 
     /// A landing of the humanoid with a shipped repertoire, backward.
-    fn landing(repertoire: &str, sites: &'static [Site], impulse: f64) -> Landing {
+    fn landing(repertoire: &str, sites: &[Site], impulse: f64) -> Landing {
         let model = Model::load("humanoid").unwrap();
         let registry = aplomb_controllers::registry();
         let supervisor = repertoire::load(repertoire, &registry, &model).unwrap();
         let pushes = Pushes {
             impulse: [impulse; 2],
-            sites,
+            sites: sites.to_vec(),
             count: 2,
             seed: 0,
         };
