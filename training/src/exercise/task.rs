@@ -12,7 +12,7 @@
 //! ```
 
 use aplomb_framework::control::Condition;
-use aplomb_framework::input::{Error, Result, Source};
+use aplomb_framework::input::{Error, Result, Source, check};
 use serde::{Deserialize, Serialize};
 
 use crate::exercise::rising::Goal;
@@ -92,26 +92,17 @@ impl Task {
         };
         let source = Source::new(format!("{}: exercise", skill.name()), raw.get_ron());
         let task: Self = source.parse()?;
-        task.check(&source)?;
+        task.check().map_err(|e| source.locate(e))?;
         task.check_contract(skill)?;
         Ok(task)
     }
 
-    fn check(&self, source: &Source) -> Result<()> {
+    fn check(&self) -> Result<()> {
         let range = |field: &'static str, [low, high]: [f64; 2]| {
-            if 0.0 <= low && low < high && high <= STRONGEST {
-                return Ok(());
-            }
-            let accepted = format!("two numbers from 0 to {STRONGEST} N·s, the first the smaller");
-            Err(source.invalid(field, field, format!("({low}, {high})"), accepted))
+            check::within((field, 0), low, 0.0..=STRONGEST)?;
+            check::above((field, 1), high, low, STRONGEST)
         };
-        let sites = |sites: &[Site]| {
-            if (1..=MOST_SITES).contains(&sites.len()) {
-                return Ok(());
-            }
-            let (problem, accepted) = (format!("a list of {}", sites.len()), "1 to 16 sites");
-            Err(source.invalid("sites", "sites", problem, accepted))
-        };
+        let sites = |sites: &[Site]| check::count("sites", sites.len(), 1..=MOST_SITES, "sites");
         match self {
             Self::Rise {
                 goal,
@@ -119,26 +110,27 @@ impl Task {
                 impulse,
                 disturbance,
             } => {
-                if !(0.0..=1.0).contains(heaps) {
-                    return Err(source.invalid("heaps", "heaps", heaps, "0 to 1"));
-                }
+                check::within("heaps", *heaps, 0.0..=1.0)?;
                 if let Goal::Reach {
                     barred: Some(barred),
                     ..
                 } = goal
-                    && !(-7.0..=7.0).contains(barred)
                 {
-                    return Err(source.invalid("barred", "barred", barred, "-7 to 7 rad"));
+                    let checked = check::within("barred", *barred, -7.0..=7.0);
+                    checked.map_err(|e| e.inside("goal"))?;
                 }
                 if let Some(name) = disturbance {
-                    disturbance::shipped(name).map_err(|e| e.at(&source.place(name)))?;
+                    disturbance::shipped(name).map_err(|e| e.inside("disturbance"))?;
                 }
                 range("impulse", *impulse)
             }
-            Self::Step { search, measure } => [search, measure].into_iter().try_for_each(|blows| {
-                range("impulse", blows.impulse)?;
-                sites(&blows.sites)
-            }),
+            Self::Step { search, measure } => {
+                let blows = [("search", search), ("measure", measure)];
+                blows.into_iter().try_for_each(|(field, blows)| {
+                    let checked = range("impulse", blows.impulse).and(sites(&blows.sites));
+                    checked.map_err(|e| e.inside(field))
+                })
+            }
             Self::Fall { impulse, sites: at } => range("impulse", *impulse).and(sites(at)),
             Self::Stand { forward, backward } => {
                 range("forward", *forward).and(range("backward", *backward))
