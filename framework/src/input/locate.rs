@@ -188,8 +188,8 @@ mod tests {
         check(prop(0).then(("half", 0)), "0.1", (5, 20));
         check(prop(0).then(("half", 1)), "0.2", (5, 37));
         check(prop(1).then("mass"), "NaN", (6, 21));
-        check(prop(1).then("shape.radius"), "-0.5", (6, 73));
-        check("last", "'c'", (10, 65));
+        check(prop(1).then("shape.radius"), "-0.5", (6, 71));
+        check("last", "'c'", (10, 60));
     }
 
     #[test]
@@ -199,7 +199,7 @@ mod tests {
         check(list(1), "\"b.ron\"", (8, 62));
         let all = |i: usize| FieldPath::from("all").then(FieldPath::inner()).then(i);
         check(all(0).then(FieldPath::inner()).then("min"), "3", (9, 31));
-        check(all(1).then(FieldPath::inner()).then(1), "prone", (9, 56));
+        check(all(1).then(FieldPath::inner()).then(1), "prone", (9, 55));
     }
 
     #[test]
@@ -221,7 +221,7 @@ mod tests {
         check(("props", 7), "[", (4, 12));
         check(FieldPath::from(("props", 0)).then("mass"), "Box", (5, 9));
         check(FieldPath::from(("list", 2)).then("kind"), "Always", (8, 72));
-        check("unit.x", "()", (10, 76));
+        check("unit.x", "()", (10, 71));
         assert_eq!(locate("", &"a".into()), 0);
         assert_eq!(locate("(a: [(b: 1", &"a".into()), 0);
     }

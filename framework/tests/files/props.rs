@@ -127,7 +127,7 @@ fn values_out_of_bounds_are_refused_in_the_file_and_when_set() {
         (
             "mass: \"mass\"",
             "mass: \"-mass\"",
-            "\"mass\"",
+            "\"-mass\"",
             "mass is -7 (by the parameter 'mass'); accepted: 0 to 1000000",
         ),
         (
