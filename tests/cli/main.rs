@@ -9,6 +9,7 @@ mod cmrt;
 mod compare;
 mod figures;
 mod help;
+mod numbers;
 mod output;
 mod preconditions;
 mod run;
@@ -19,6 +20,7 @@ mod trials;
 use std::path::Path;
 
 use assert_cmd::Command;
+use numbers::assert_within;
 use serde_json::Value;
 
 /// The program, with everything that could change its words taken away.
