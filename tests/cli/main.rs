@@ -15,6 +15,7 @@ mod compare;
 mod export;
 mod figures;
 mod help;
+mod numbers;
 mod output;
 mod preconditions;
 mod run;
@@ -25,6 +26,7 @@ mod trials;
 use std::path::Path;
 
 use assert_cmd::Command;
+use numbers::assert_within;
 use serde_json::Value;
 
 /// The program, with everything that could change its words taken away.
