@@ -12,6 +12,7 @@ mod figures;
 mod help;
 mod output;
 mod preconditions;
+mod reproduce;
 mod run;
 mod shell;
 mod train;
