@@ -44,7 +44,7 @@ pub(super) struct ClipsArgs {
 
 /// One clip. Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-struct Row {
+pub(super) struct Row {
     clip: String,
     character: String,
     parameters: BTreeMap<String, f64>,
@@ -59,23 +59,24 @@ struct Row {
 
 impl ClipsArgs {
     pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
-        let names: Vec<String> = if self.clips.is_empty() {
-            aplomb::scenarios::clips().map(str::to_owned).collect()
-        } else {
-            self.clips.clone()
-        };
-        let threads = self.jobs.threads()?;
-        let row = |name: &String| {
-            let clip = load(name, &self.settings.set, None)?;
-            threads.install(|| Row::new(&clip, self.seed.value))
-        };
-        let rows = names.iter().map(row).collect::<Result<Vec<Row>>>()?;
+        let rows = self.jobs.threads()?.install(|| self.measure())?;
         if self.json.wanted {
             write_json(out, &rows)?;
         } else {
             print(out, &rows)?;
         }
         Ok(Verdict::Done)
+    }
+
+    /// What `--json` prints; it is measured in the threads of the caller.
+    pub(super) fn measure(&self) -> Result<Vec<Row>> {
+        let names: Vec<String> = if self.clips.is_empty() {
+            aplomb::scenarios::clips().map(str::to_owned).collect()
+        } else {
+            self.clips.clone()
+        };
+        let row = |name: &String| Row::new(&load(name, &self.settings.set, None)?, self.seed.value);
+        names.iter().map(row).collect()
     }
 }
 

@@ -11,6 +11,7 @@ mod json;
 mod output;
 mod progress;
 mod render;
+mod reproduce;
 mod robustness;
 mod run;
 mod scene;
@@ -63,6 +64,7 @@ enum Command {
     Robustness(robustness::RobustnessArgs),
     Render(render::RenderArgs),
     Export(export::ExportArgs),
+    Reproduce(reproduce::ReproduceArgs),
 }
 
 /// What a finished subcommand tells the shell.
@@ -90,6 +92,7 @@ impl Cli {
             Some(Command::Robustness(args)) => args.run(out),
             Some(Command::Render(args)) => args.run(out),
             Some(Command::Export(args)) => args.run(out),
+            Some(Command::Reproduce(args)) => args.run(out),
         }
     }
 }

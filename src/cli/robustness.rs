@@ -87,7 +87,7 @@ struct Row {
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-struct Report {
+pub(super) struct Report {
     starts: u64,
     seed: u64,
     wall_s: f64,
@@ -97,31 +97,32 @@ struct Report {
 
 impl RobustnessArgs {
     pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
-        let all = skills(&self.cast)?;
-        let chosen = self.choose(&all)?;
         let stop = work::stop_on_interrupt()?;
-        let begun = Instant::now();
-        let rows = self
-            .jobs
-            .threads()?
-            .install(|| self.measure(&chosen, &stop))?;
-        let interrupted = stop.load(Ordering::Relaxed);
-        if interrupted {
+        let report = self.jobs.threads()?.install(|| self.measure(&stop))?;
+        if report.interrupted {
             message(format_args!("interrupted: the table is not complete"));
         }
-        let report = Report {
-            starts: self.starts,
-            seed: self.seed.value,
-            wall_s: begun.elapsed().as_secs_f64(),
-            interrupted,
-            controllers: rows,
-        };
         if self.json.wanted {
             write_json(out, &report)?;
         } else {
             print(out, &report)?;
         }
         Ok(Verdict::Done)
+    }
+
+    /// What `--json` prints; it is measured in the threads of the caller.
+    pub(super) fn measure(&self, stop: &AtomicBool) -> Result<Report> {
+        let all = skills(&self.cast)?;
+        let chosen = self.choose(&all)?;
+        let begun = Instant::now();
+        let controllers = self.rows(&chosen, stop)?;
+        Ok(Report {
+            starts: self.starts,
+            seed: self.seed.value,
+            wall_s: begun.elapsed().as_secs_f64(),
+            interrupted: stop.load(Ordering::Relaxed),
+            controllers,
+        })
     }
 
     /// The controllers that were asked for, or all that there is something to measure of.
@@ -142,7 +143,7 @@ impl RobustnessArgs {
     }
 
     /// A row for each, without the worlds that were not finished.
-    fn measure(&self, chosen: &[(&Skill, Task)], stop: &AtomicBool) -> Result<Vec<Row>> {
+    fn rows(&self, chosen: &[(&Skill, Task)], stop: &AtomicBool) -> Result<Vec<Row>> {
         let skills: Vec<&Skill> = chosen.iter().map(|(skill, _)| *skill).collect();
         let row = |(skill, task): &(&Skill, Task)| Row {
             controller: skill.name().to_owned(),

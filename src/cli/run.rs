@@ -52,17 +52,32 @@ pub(super) struct RunArgs {
 }
 
 impl RunArgs {
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    /// What `--json` prints, without recording.
+    pub(super) fn measure(&self) -> Result<RunJson> {
+        let (scenario, mut simulation) = self.begin()?;
+        let begun = Instant::now();
+        simulation.run(scenario.duration);
+        let wall_s = begun.elapsed().as_secs_f64();
+        Ok(RunJson::new(&simulation, &scenario, wall_s, self.explain))
+    }
+
+    /// The scenario with all that the options ask for, and its run at its beginning.
+    fn begin(&self) -> Result<(Scenario, Simulation)> {
         let registry = aplomb::controllers::registry();
         let mut scenario = self.scene.load(10.0, &registry)?;
         if let Some(duration) = self.duration {
             scenario.duration = duration;
         }
-        self.record.file.as_deref().map_or(Ok(()), check_writable)?;
-        self.render.as_deref().map_or(Ok(()), check_picture)?;
         let mut simulation = Simulation::new(&scenario, &registry)?;
         schedule(&mut simulation, &scenario, &self.push)?;
         schedule(&mut simulation, &scenario, &self.command)?;
+        Ok((scenario, simulation))
+    }
+
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        let (scenario, mut simulation) = self.begin()?;
+        self.record.file.as_deref().map_or(Ok(()), check_writable)?;
+        self.render.as_deref().map_or(Ok(()), check_picture)?;
         if self.record.file.is_some() || self.render.is_some() {
             record(&mut simulation, &scenario)?;
         }

@@ -35,7 +35,7 @@ pub(super) struct SceneArgs {
 }
 
 /// Who takes part.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(super) struct CastArgs {
     /// The first character: built-in name or character file
     #[arg(long, value_name = "NAME|FILE")]

@@ -18,6 +18,7 @@ mod help;
 mod numbers;
 mod output;
 mod preconditions;
+mod reproduce;
 mod run;
 mod shell;
 mod train;

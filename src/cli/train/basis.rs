@@ -90,7 +90,7 @@ impl FromStr for Over {
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-struct Report {
+pub(in crate::cli) struct Report {
     clip: String,
     parameter: String,
     values: Vec<f64>,
@@ -104,6 +104,22 @@ struct Report {
 
 impl BasisArgs {
     pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        let stop = work::stop_on_interrupt()?;
+        let report = self
+            .search
+            .jobs
+            .threads()?
+            .install(|| self.measure(&stop))?;
+        if self.json.wanted {
+            write_json(out, &report)?;
+        } else {
+            print(out, &report)?;
+        }
+        Ok(Verdict::Done)
+    }
+
+    /// What `--json` prints; it is searched in the threads of the caller, and all files are written.
+    pub(in crate::cli) fn measure(&self, stop: &AtomicBool) -> Result<Report> {
         let stem = Path::new(&self.clip).file_stem().unwrap_or_default();
         let usual = || PathBuf::from(format!("{}.basis.ron", stem.to_string_lossy()));
         let file = self.out.clone().unwrap_or_else(usual);
@@ -115,18 +131,16 @@ impl BasisArgs {
             )?),
             None => None,
         };
-        let stop = work::stop_on_interrupt()?;
         let begun = Instant::now();
-        let threads = self.search.jobs.threads()?;
         let mut family: Vec<Cmrt> = Vec::new();
         let (mut objectives, mut evaluations) = (Vec::new(), Vec::new());
         for i in 0..self.count {
             let part = i as f64 / (self.count - 1) as f64;
             let value = self.over.low + part * (self.over.high - self.over.low);
             let value = (1e9 * value).round() / 1e9;
-            let found = threads.install(|| self.member(i, value, family.last(), &file, &stop))?;
+            let found = self.member(i, value, family.last(), &file, stop)?;
             ensure!(
-                work::going_on(&stop).is_continue(),
+                work::going_on(stop).is_continue(),
                 "interrupted at {} = {value}; --resume goes on",
                 self.over.key
             );
@@ -149,7 +163,7 @@ impl BasisArgs {
         if let Some(figures) = figures {
             figures.basis(&basis)?;
         }
-        let report = Report {
+        Ok(Report {
             clip: self.clip.clone(),
             parameter: key.clone(),
             values,
@@ -159,13 +173,7 @@ impl BasisArgs {
             explained: basis.explained.clone(),
             wall_s: begun.elapsed().as_secs_f64(),
             out: file.display().to_string(),
-        };
-        if self.json.wanted {
-            write_json(out, &report)?;
-        } else {
-            print(out, &report)?;
-        }
-        Ok(Verdict::Done)
+        })
     }
 
     /// The trajectory for one value, beginning with that for the value before.

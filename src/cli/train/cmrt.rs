@@ -106,7 +106,7 @@ pub(super) struct SearchArgs {
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-struct Report {
+pub(in crate::cli) struct Report {
     clip: String,
     parameters: BTreeMap<String, f64>,
     seed: u64,
@@ -129,6 +129,25 @@ struct Report {
 
 impl CmrtArgs {
     pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        let stop = work::stop_on_interrupt()?;
+        let threads = self.search.jobs.threads()?;
+        let report = threads.install(|| self.measure(&stop))?;
+        if report.interrupted {
+            let n = report.evaluations;
+            message(format_args!(
+                "interrupted after {n} evaluations; --resume goes on"
+            ));
+        }
+        if self.json.wanted {
+            write_json(out, &report)?;
+        } else {
+            print(out, &report)?;
+        }
+        Ok(Verdict::Done)
+    }
+
+    /// What `--json` prints; it is searched in the threads of the caller, and all files are written.
+    pub(in crate::cli) fn measure(&self, stop: &AtomicBool) -> Result<Report> {
         let clip = self.search.clip(&self.clip)?;
         let file = self.out.clone();
         let file = file.unwrap_or_else(|| PathBuf::from(format!("{}.ron", clip.contract().name)));
@@ -148,19 +167,15 @@ impl CmrtArgs {
             start: clip.shipped().filter(|_| self.warm),
             ..self.search.plan(encoding)
         };
-        let stop = work::stop_on_interrupt()?;
         let (begun, cpu) = (Instant::now(), ProcessTime::now());
         let keep = Keep {
             journal: &journal,
             resume: self.resume.wanted,
         };
         let seed = self.search.seed.value;
-        let (flat, found, optimised) = self.search.jobs.threads()?.install(|| {
-            let flat = Judged::new(&clip, None, seed)?;
-            let found = shown(&clip, &plan, keep, &stop)?;
-            let optimised = Judged::new(&clip, Some(&found.cmrt), seed)?;
-            anyhow::Ok((flat, found, optimised))
-        })?;
+        let flat = Judged::new(&clip, None, seed)?;
+        let found = shown(&clip, &plan, keep, stop)?;
+        let optimised = Judged::new(&clip, Some(&found.cmrt), seed)?;
         let report = Report {
             clip: clip.scenario.name.clone(),
             parameters: clip.parameters(),
@@ -171,7 +186,7 @@ impl CmrtArgs {
             evaluations: found.evaluations,
             wall_s: begun.elapsed().as_secs_f64(),
             cpu_s: cpu.elapsed().as_secs_f64(),
-            interrupted: work::going_on(&stop).is_break(),
+            interrupted: work::going_on(stop).is_break(),
             flat,
             optimised,
             times: found.cmrt.times.clone(),
@@ -184,18 +199,7 @@ impl CmrtArgs {
         if let Some(figures) = figures {
             figures.found(&clip, &found, &report.flat, &report.optimised)?;
         }
-        if report.interrupted {
-            let n = report.evaluations;
-            message(format_args!(
-                "interrupted after {n} evaluations; --resume goes on"
-            ));
-        }
-        if self.json.wanted {
-            write_json(out, &report)?;
-        } else {
-            print(out, &report)?;
-        }
-        Ok(Verdict::Done)
+        Ok(report)
     }
 }
 

@@ -22,6 +22,7 @@ use aplomb::training::preconditions::set::{Files, Gathered, Part, Plan, gather, 
 use aplomb::training::situations::disturbance;
 use aplomb::training::situations::disturbance::Disturbance;
 use clap::Args;
+use rayon::ThreadPool;
 use serde::Serialize;
 
 use super::skills;
@@ -102,7 +103,7 @@ fn kernels(text: &str) -> Result<Kernels, String> {
 
 /// What was done for a controller.
 #[derive(Debug, Serialize)]
-struct Row {
+pub(in crate::cli) struct Row {
     #[serde(flatten)]
     report: Report,
     /// Rollouts of this run; the others were found.
@@ -115,6 +116,34 @@ struct Row {
 
 impl PreconditionsArgs {
     pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        let stop = work::stop_on_interrupt()?;
+        let threads = self.jobs.threads()?;
+        let tell = |row: &Row| {
+            if !self.json.wanted {
+                print(out, row)?;
+                out.flush()?;
+            }
+            anyhow::Ok(())
+        };
+        let rows = self.rows(Some(&threads), &stop, tell)?;
+        if self.json.wanted {
+            write_json(out, &rows)?;
+        }
+        Ok(Verdict::Done)
+    }
+
+    /// What `--json` prints; the work is done in the threads of the caller.
+    pub(in crate::cli) fn measure(&self, stop: &AtomicBool) -> Result<Vec<Row>> {
+        self.rows(None, stop, |_| Ok(()))
+    }
+
+    /// A row for each controller, in these threads or those of the caller; `tell` sees each at once.
+    fn rows(
+        &self,
+        threads: Option<&ThreadPool>,
+        stop: &AtomicBool,
+        mut tell: impl FnMut(&Row) -> Result<()>,
+    ) -> Result<Vec<Row>> {
         let skills = skills(&self.cast)?;
         let chosen = chosen(&skills, &self.controllers, self.disturbance.is_some())?;
         if self.disturbance.is_some() && chosen.len() != 1 {
@@ -135,25 +164,18 @@ impl PreconditionsArgs {
         }
         fs::create_dir_all(&self.out)
             .with_context(|| format!("{} cannot be made", self.out.display()))?;
-        let stop = work::stop_on_interrupt()?;
-        let threads = self.jobs.threads()?;
         let mut rows = Vec::with_capacity(trials.len());
         for (skill, trial, source) in &trials {
-            let done = threads.install(|| self.learn(skill, trial, source, &stop))?;
+            let work = || self.learn(skill, trial, source, stop);
+            let done = threads.map_or_else(work, |t| t.install(work))?;
             let Some(row) = done else {
                 message(format_args!("interrupted; --resume goes on"));
                 break;
             };
-            if !self.json.wanted {
-                print(out, &row)?;
-                out.flush()?;
-            }
+            tell(&row)?;
             rows.push(row);
         }
-        if self.json.wanted {
-            write_json(out, &rows)?;
-        }
-        Ok(Verdict::Done)
+        Ok(rows)
     }
 
     /// Everything for one controller; none if it was interrupted.

@@ -11,46 +11,46 @@ use super::tally::Falls;
 use crate::cli::statistics::{median, percentile};
 
 /// Names are a contract with other people's scripts.
-#[derive(Debug, Clone, Serialize)]
-pub(in crate::cli) struct FallsReport {
-    pub(in crate::cli) forward: Forward,
-    pub(in crate::cli) backward: Backward,
+#[derive(Debug, Serialize)]
+pub(super) struct FallsReport {
+    forward: Forward,
+    backward: Backward,
     /// Of both.
     #[serde(flatten)]
-    pub(in crate::cli) impact: Impact,
+    impact: Impact,
 }
 
 /// What head and trunk had to take in falls.
-#[derive(Debug, Clone, Serialize)]
-pub(in crate::cli) struct Impact {
+#[derive(Debug, Serialize)]
+struct Impact {
     /// Falls in which the head touched anything before the character lay still.
-    pub(in crate::cli) head_hits: u64,
+    head_hits: u64,
     /// Of the head just before it touched, in the falls in which it did, m/s.
-    pub(in crate::cli) median_head_hit_speed: Option<f64>,
+    median_head_hit_speed: Option<f64>,
     /// The same: what 95 of 100 do not exceed.
-    pub(in crate::cli) p95_head_hit_speed: Option<f64>,
+    p95_head_hit_speed: Option<f64>,
     /// Of the largest filtered force on the head in the falls in which it touched, N.
-    pub(in crate::cli) median_head_hit_force: Option<f64>,
+    median_head_hit_force: Option<f64>,
     /// Of the largest filtered force on trunk and root together in each fall, N.
-    pub(in crate::cli) median_trunk_force: Option<f64>,
+    median_trunk_force: Option<f64>,
 }
 
 /// Falls forward.
-#[derive(Debug, Clone, Serialize)]
-pub(in crate::cli) struct Forward {
-    pub(in crate::cli) count: u64,
-    pub(in crate::cli) hands_first: u64,
+#[derive(Debug, Serialize)]
+struct Forward {
+    count: u64,
+    hands_first: u64,
     #[serde(flatten)]
-    pub(in crate::cli) impact: Impact,
+    impact: Impact,
 }
 
 /// Falls backward.
-#[derive(Debug, Clone, Serialize)]
-pub(in crate::cli) struct Backward {
-    pub(in crate::cli) count: u64,
-    pub(in crate::cli) hands_or_seat_first: u64,
+#[derive(Debug, Serialize)]
+struct Backward {
+    count: u64,
+    hands_or_seat_first: u64,
     #[serde(flatten)]
-    pub(in crate::cli) impact: Impact,
+    impact: Impact,
 }
 
 impl Impact {

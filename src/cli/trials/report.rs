@@ -19,8 +19,8 @@ const FAILURES_TOLD: usize = 10;
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-pub(super) struct Report {
-    count: u64,
+pub(in crate::cli) struct Report {
+    pub(super) count: u64,
     standing: u64,
     fraction: f64,
     /// Wilson's, of the fraction that stands.
@@ -33,7 +33,7 @@ pub(super) struct Report {
     wall_s: f64,
     simulated_s: f64,
     steps_per_s: f64,
-    interrupted: bool,
+    pub(super) interrupted: bool,
     /// Of the trials that are finished: equal if and only if every step of each is.
     digest: String,
     controllers: BTreeMap<String, Activations>,

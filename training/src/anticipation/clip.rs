@@ -149,6 +149,13 @@ impl Clip {
         )
     }
 
+    /// Values of the motion's parameter for which its file has trajectories, in ascending order.
+    #[must_use]
+    pub fn learned_values(&self) -> Vec<f64> {
+        let family = &self.spec.motions[self.motion].cmrts;
+        family.iter().map(|cmrt| cmrt.value).collect()
+    }
+
     /// The repertoire with the motion along another trajectory; with none, no motion has one.
     ///
     /// # Errors
