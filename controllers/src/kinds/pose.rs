@@ -5,17 +5,21 @@
 //! targets (continuous control). Fails as its contract says, when a state ends short of what it
 //! expects, or when the last pose does not bring the post-condition about within a second.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Condition, Contract, Controller, Progress, Spec};
 use aplomb_framework::events::Unmet;
-use aplomb_framework::input::Result;
+use aplomb_framework::input::{Error, Result};
 use aplomb_framework::sensing::{Feature, Sensors};
 use serde::{Deserialize, Serialize};
 
 use crate::servo::{Servo, smoothstep};
 use crate::target::{NamedAngles, bounded, joints_named, mirrored, overlay};
+
+/// What `next` and `then` call the end of the machine.
+pub const END: &str = "end";
 
 /// At most this many states.
 pub const MOST_STATES: usize = 64;
@@ -27,6 +31,9 @@ const GRACE: f64 = 1.0;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PoseState {
+    /// What other states call it; none by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
     /// Target angles, rad; joints that are not named keep the last state's.
     #[serde(default)]
     pub pose: NamedAngles,
@@ -44,13 +51,12 @@ pub struct PoseState {
     /// Stiffness relative to the nominal servos.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub stiffness: f64,
-    /// The state that follows when the time is up, from 0; the next one if left out. The number of
-    /// states is the end.
+    /// Name of the state that follows when the time is up, or `end`; the next one if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub next: Option<usize>,
-    /// The state that follows when `until` ends this one; as `next` if left out.
+    pub next: Option<String>,
+    /// Name of the state that follows when `until` ends this one; as `next` if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub then: Option<usize>,
+    pub then: Option<String>,
 }
 
 fn most() -> f64 {
@@ -93,6 +99,9 @@ pub struct Feedback {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PoseSpec {
+    /// Conditions that states refer to by name: `until: Named("squatting")`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub conditions: BTreeMap<String, Condition>,
     /// The machine; it begins with the first.
     pub states: Vec<PoseState>,
     /// Rules that act in all states.
@@ -114,6 +123,8 @@ pub struct PoseSpec {
 
 #[derive(Debug, Clone)]
 struct Key {
+    /// For messages: the state's name in quotes, or its place.
+    name: String,
     pose: Vec<f64>,
     duration: f64,
     ease: f64,
@@ -158,6 +169,7 @@ impl Spec for PoseSpec {
             MOST_STATES as f64,
         )?;
         bounded(&place, "damping", self.damping, 0.0, 1.0)?;
+        self.check_names(&place)?;
         let joints = model.joint_count();
         let mut pose = vec![0.0; joints];
         let mut keys = Vec::with_capacity(self.states.len());
@@ -167,16 +179,14 @@ impl Spec for PoseSpec {
             bounded(&at, "duration", state.duration, 0.0, 3600.0)?;
             bounded(&at, "ease", state.ease, 0.0, 1.0)?;
             bounded(&at, "stiffness", state.stiffness, 0.0, 3.0)?;
-            let next = state.next.unwrap_or(i + 1);
-            let then = state.then.unwrap_or(next);
-            let most = self.states.len() as f64;
-            bounded(&at, "next", next as f64, 0.0, most)?;
-            bounded(&at, "then", then as f64, 0.0, most)?;
-            let mut until = state.until.clone();
-            until.resolve(model)?;
-            let mut expects = state.expects.clone();
-            expects.resolve(model)?;
+            let next = self.follower(state.next.as_deref(), i + 1, &at)?;
+            let condition = |condition: &Condition| {
+                let mut condition = condition.named(&self.conditions)?;
+                condition.resolve(model)?;
+                Ok(condition)
+            };
             keys.push(Key {
+                name: (state.name.as_ref()).map_or(format!("state {i}"), |n| format!("'{n}'")),
                 pose: if self.mirror {
                     mirrored(model, &pose)
                 } else {
@@ -184,11 +194,11 @@ impl Spec for PoseSpec {
                 },
                 duration: state.duration,
                 ease: state.ease,
-                until,
-                expects,
+                until: condition(&state.until).map_err(|e: Error| e.at(&at))?,
+                expects: condition(&state.expects).map_err(|e: Error| e.at(&at))?,
                 stiffness: state.stiffness,
                 next,
-                then,
+                then: self.follower(state.then.as_deref(), next, &at)?,
             });
         }
         let mut feedback = Vec::new();
@@ -225,6 +235,40 @@ impl Spec for PoseSpec {
     }
 }
 
+impl PoseSpec {
+    /// Refuses a name that stands twice, or that is the end's.
+    fn check_names(&self, place: &str) -> Result<()> {
+        for (i, state) in self.states.iter().enumerate() {
+            let Some(name) = state.name.as_deref() else {
+                continue;
+            };
+            let before = &self.states[..i];
+            if name == END || before.iter().any(|s| s.name.as_deref() == Some(name)) {
+                let at = format!("{place}: states[{i}]");
+                let accepted = "a name that no other state has, and not 'end'";
+                return Err(Error::invalid(at, "name", format!("'{name}'"), accepted));
+            }
+        }
+        Ok(())
+    }
+
+    /// Place of the state of this name, or `otherwise`; the number of states is the end.
+    fn follower(&self, name: Option<&str>, otherwise: usize, at: &str) -> Result<usize> {
+        let Some(name) = name else {
+            return Ok(otherwise);
+        };
+        if name == END {
+            return Ok(self.states.len());
+        }
+        let names = || self.states.iter().filter_map(|s| s.name.as_deref());
+        let place = self
+            .states
+            .iter()
+            .position(|s| s.name.as_deref() == Some(name));
+        place.ok_or_else(|| Error::unknown("state", name, names().chain([END])).at(at))
+    }
+}
+
 impl PoseController {
     fn begin(&mut self, now: &Sensors, key: usize) {
         if key < self.keys.len() {
@@ -244,7 +288,7 @@ impl PoseController {
         } else if now.time - self.since >= key.duration * self.slowness {
             if let Some(refusal) = key.expects.first_failure(now) {
                 let mut unmet = refusal.expected();
-                unmet.clause = format!("after state {}: {}", self.key, unmet.clause);
+                unmet.clause = format!("after {}: {}", key.name, unmet.clause);
                 self.missed = Some(unmet);
             }
             self.begin(now, key.next);

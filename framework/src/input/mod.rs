@@ -5,6 +5,8 @@
 
 mod error;
 mod file;
+mod shipped;
 
 pub use error::{Error, Result, nearest, shortened};
 pub use file::{LARGEST_TEXT, Source, options, read_bounded, write_atomically};
+pub use shipped::shipped;
