@@ -27,9 +27,9 @@ use super::{Verdict, work};
 #[command(after_help = "\
 Examples:
   aplomb clips
-  aplomb clips fast_bend --set duration=0.5 --json")]
+  aplomb clips bend --set duration=0.5 --json")]
 pub(super) struct ClipsArgs {
-    /// Shipped clips (fast_bend for the scenario clips/fast_bend) or scenario files; all shipped ones
+    /// Shipped clips (bend for the scenario clips/bend) or scenario files; all shipped ones
     /// if left out
     clips: Vec<String>,
     #[command(flatten)]

@@ -133,7 +133,7 @@ mod tests {
     fn the_help_of_run_names_every_shipped_scenario() {
         let mut cli = Cli::command();
         let help = cli.find_subcommand_mut("run").unwrap().render_long_help();
-        for (name, _) in aplomb::scenarios::SHIPPED {
+        for (name, _) in aplomb::scenarios::shipped() {
             let name = name.split('/').next().unwrap_or(name);
             assert!(help.to_string().contains(name), "{name}");
         }

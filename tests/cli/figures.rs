@@ -47,7 +47,7 @@ fn names(files: &BTreeMap<String, String>) -> Vec<&str> {
 fn a_clip_has_five_figures_that_a_resumed_search_draws_again() {
     let folder = tempfile::tempdir().unwrap();
     let run = |arguments: &str| {
-        let search = "train cmrt fast_bend --evaluations 12 --least 1 --out c.ron";
+        let search = "train cmrt bend --evaluations 12 --least 1 --out c.ron";
         let mut call = called(&format!("{search} {arguments}"));
         call.current_dir(folder.path()).assert().success();
     };
@@ -55,9 +55,9 @@ fn a_clip_has_five_figures_that_a_resumed_search_draws_again() {
     run("--figures b --resume");
     let drawn = files(&folder.path().join("a"));
     let expected = ["cmrt", "convergence", "cop", "with", "without"];
-    let expected = expected.map(|n| format!("fast_bend.{n}.svg"));
+    let expected = expected.map(|n| format!("bend.{n}.svg"));
     assert_eq!(names(&drawn), expected);
-    let figure = |name: &str| drawn[&format!("fast_bend.{name}.svg")].as_str();
+    let figure = |name: &str| drawn[&format!("bend.{name}.svg")].as_str();
     let axes = ["(m)", "(s)"];
     let panels = ["without anticipation", "objective"];
     assert_drawn(figure("cop"), &[axes, panels].concat(), (COP, 100, 100.0));
@@ -70,7 +70,7 @@ fn a_clip_has_five_figures_that_a_resumed_search_draws_again() {
     let course = ["evaluations", "best objective", "without anticipation:"];
     assert_drawn(figure("convergence"), &course, (COURSE, 1, 0.0));
     let films = ["with", "without"].map(|name| {
-        let title = format!("clips/fast_bend, {name} anticipation");
+        let title = format!("clips/bend, {name} anticipation");
         let film = assert_seen(
             figure(name),
             &[Sight::Text(&title, 1), Sight::Text("0.00 s", 1)],
@@ -89,12 +89,12 @@ fn a_clip_has_five_figures_that_a_resumed_search_draws_again() {
 #[test]
 fn a_basis_has_three_figures() {
     let folder = tempfile::tempdir().unwrap();
-    let search = "train basis fast_bend --over duration=0.3..0.6 --count 3 --evaluations 22";
+    let search = "train basis bend --over duration=0.3..0.6 --count 3 --evaluations 22";
     let mut call = called(&format!("{search} --out b.ron --figures f"));
     call.current_dir(folder.path()).assert().success();
     let drawn = files(&folder.path().join("f"));
     let expected = ["components", "family", "variance"];
-    let expected = expected.map(|n| format!("fast_bend.{n}.svg"));
+    let expected = expected.map(|n| format!("bend.{n}.svg"));
     assert_eq!(names(&drawn), expected);
     let figure = |name: &str| drawn[&format!("fast_bend.{name}.svg")].as_str();
     let values = ["(m)", "(s)", "duration", "0.3", "0.6"];
@@ -121,7 +121,7 @@ fn a_basis_has_three_figures() {
 fn a_folder_that_cannot_be_written_into_is_refused_before_the_search() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("file"), "").unwrap();
-    let mut call = called("train cmrt fast_bend --out c.ron --figures file");
+    let mut call = called("train cmrt bend --out c.ron --figures file");
     let call = call.current_dir(folder.path()).assert().failure();
     call.stderr(predicate::str::contains("cannot write"));
     assert_eq!(names(&files(folder.path())), ["file"]);

@@ -3,6 +3,7 @@
 //! In the 2001 paper's terms these are the relations on state, environment, contacts and balance
 //! of which pre-conditions, post-conditions and expected performance are made.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
@@ -55,6 +56,9 @@ pub enum Condition {
     /// A learned boundary says that success is expected. Where a feature of it is not a number it
     /// does not.
     Svm(Arc<Boundary>),
+    /// The condition that the file gives this name to. It stands in files alone: [`Condition::named`]
+    /// puts the condition in its place; without that it holds nowhere.
+    Named(String),
 }
 
 fn lowest() -> f64 {
@@ -94,7 +98,7 @@ impl Condition {
         };
         match self {
             Self::Always => None,
-            Self::Never => refused(None),
+            Self::Never | Self::Named(_) => refused(None),
             Self::Within { feature, min, max } => {
                 let v = feature.value(now);
                 if v >= *min && v <= *max {
@@ -151,7 +155,11 @@ impl Condition {
             Self::Svm(_) => true,
             Self::All(list) | Self::Any(list) => list.iter().any(Self::is_learned),
             Self::Not(c) => c.is_learned(),
-            Self::Always | Self::Never | Self::Within { .. } | Self::Posture(_) => false,
+            Self::Always
+            | Self::Never
+            | Self::Within { .. }
+            | Self::Posture(_)
+            | Self::Named(_) => false,
         }
     }
 
@@ -185,14 +193,39 @@ impl Condition {
             Self::Not(c) => c
                 .each_feature(visit)
                 .map_err(|e| e.inside(FieldPath::inner())),
-            Self::Always | Self::Never | Self::Posture(_) | Self::Svm(_) => Ok(()),
+            Self::Always | Self::Never | Self::Posture(_) | Self::Svm(_) | Self::Named(_) => Ok(()),
         }
+    }
+
+    /// The same condition with those that it names in their places.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] with the names that there are.
+    pub fn named(&self, names: &BTreeMap<String, Self>) -> Result<Self> {
+        let all = |list: &[Self]| {
+            let one = |(i, c): (usize, &Self)| c.named(names).map_err(|e| e.inside(clause(i)));
+            list.iter().enumerate().map(one).collect::<Result<Vec<_>>>()
+        };
+        Ok(match self {
+            Self::Named(name) => {
+                let known = || names.keys().map(String::as_str);
+                let unknown = || Error::unknown("condition", name, known());
+                names.get(name).ok_or_else(unknown)?.clone()
+            }
+            Self::All(list) => Self::All(all(list)?),
+            Self::Any(list) => Self::Any(all(list)?),
+            Self::Not(c) => {
+                let named = c.named(names).map_err(|e| e.inside(FieldPath::inner()))?;
+                Self::Not(Box::new(named))
+            }
+            _ => self.clone(),
+        })
     }
 
     /// Looks up the joints that features name, and checks the bounds.
     ///
     /// # Errors
-    /// An unknown joint; bounds that are not numbers or out of order; a learned boundary that is
+    /// An unknown joint; a name in the place of a condition; bounds that are not numbers or out of order; a learned boundary that is
     /// invalid or of another character.
     pub fn resolve(&mut self, model: &Model) -> Result<()> {
         match self {
@@ -216,6 +249,9 @@ impl Condition {
             Self::Svm(boundary) => {
                 let learned = Arc::make_mut(boundary).resolve(model);
                 learned.map_err(|e| e.inside(FieldPath::inner()))?;
+            }
+            Self::Named(name) => {
+                return Err(Error::unknown("condition", name, std::iter::empty()));
             }
             Self::Always | Self::Never | Self::Posture(_) => {}
         }
@@ -260,6 +296,7 @@ impl fmt::Display for Condition {
             Self::Any(any) => list(f, any, "or"),
             Self::Not(c) => write!(f, "not {c}"),
             Self::Svm(boundary) => write!(f, "{boundary}"),
+            Self::Named(name) => f.write_str(name),
         }
     }
 }

@@ -68,7 +68,7 @@ type Build = fn(&Source, &RawValue, Contract, &Arc<Model>) -> Result<Box<dyn Con
 #[derive(Debug, Clone, Default)]
 pub struct Registry {
     kinds: BTreeMap<&'static str, Build>,
-    files: BTreeMap<&'static str, &'static str>,
+    files: BTreeMap<String, &'static str>,
 }
 
 impl Registry {
@@ -87,8 +87,8 @@ impl Registry {
 
     /// Adds a shipped file under its name, for example `skills/bow.ron`.
     #[must_use]
-    pub fn with_file(mut self, name: &'static str, text: &'static str) -> Self {
-        self.files.insert(name, text);
+    pub fn with_file(mut self, name: impl Into<String>, text: &'static str) -> Self {
+        self.files.insert(name.into(), text);
         self
     }
 
@@ -100,8 +100,8 @@ impl Registry {
     }
 
     /// Names of the shipped files.
-    pub fn files(&self) -> impl Iterator<Item = &'static str> + '_ {
-        self.files.keys().copied()
+    pub fn files(&self) -> impl Iterator<Item = &str> {
+        self.files.keys().map(String::as_str)
     }
 
     /// Builds a controller from a parsed file. `source` is the text that the file is, or the part of

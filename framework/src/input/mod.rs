@@ -9,7 +9,9 @@ mod error;
 mod file;
 mod locate;
 mod path;
+mod shipped;
 
 pub use error::{Error, Result, nearest, shortened};
 pub use file::{LARGEST_TEXT, Source, options, read_bounded, stream_atomically, write_atomically};
 pub use path::FieldPath;
+pub use shipped::shipped;

@@ -30,8 +30,8 @@ use crate::cli::{Verdict, work};
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  aplomb train basis push_dominoes --over mass=30..150 --count 11 --components 3 --out push.basis.ron
-  aplomb train cmrt push_dominoes --set mass=100 --basis push.basis.ron")]
+  aplomb train basis push --over mass=30..150 --count 11 --components 3 --out push.basis.ron
+  aplomb train cmrt push --set mass=100 --basis push.basis.ron")]
 pub(in crate::cli) struct BasisArgs {
     /// A shipped clip or a scenario file
     clip: String,

@@ -41,11 +41,11 @@ use crate::cli::{Verdict, clips, progress, work};
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  aplomb train cmrt fast_bend --figures figures
-  aplomb train cmrt push_dominoes --set mass=110 --out push.ron
-  aplomb train cmrt push_dominoes --set mass=110 --basis push.basis.ron --json")]
+  aplomb train cmrt bend --figures figures
+  aplomb train cmrt push --set mass=110 --out push.ron
+  aplomb train cmrt push --set mass=110 --basis push.basis.ron --json")]
 pub(in crate::cli) struct CmrtArgs {
-    /// A shipped clip (fast_bend for the scenario clips/fast_bend) or a scenario file
+    /// A shipped clip (bend for the scenario clips/bend) or a scenario file
     clip: String,
     #[command(flatten)]
     search: SearchArgs,

@@ -5,8 +5,9 @@
 use aplomb_controllers::target::{NamedAngles, overlay};
 use aplomb_framework::character::Model;
 use aplomb_framework::control::boundary::MOST_FEATURES;
-use aplomb_framework::input::{Error, Result, Source, check};
+use aplomb_framework::input::{self, Error, Result, Source, check};
 use aplomb_framework::sensing::Feature;
+use include_dir::{Dir, include_dir};
 use serde::Deserialize;
 
 /// At most this many starts, supervisors or links to draw from.
@@ -98,41 +99,13 @@ pub struct Disturbance {
     pub unharmed: Option<Unharmed>,
 }
 
-/// The shipped ones: controller and text.
-const SHIPPED: &[(&str, &str)] = &[
-    ("balance", include_str!("../../disturbances/balance.ron")),
-    (
-        "protective_step",
-        include_str!("../../disturbances/protective_step.ron"),
-    ),
-    ("fall", include_str!("../../disturbances/fall.ron")),
-    ("roll", include_str!("../../disturbances/roll.ron")),
-    (
-        "rise_supine",
-        include_str!("../../disturbances/rise_supine.ron"),
-    ),
-    (
-        "rise_sitting",
-        include_str!("../../disturbances/rise_sitting.ron"),
-    ),
-    (
-        "rise_prone",
-        include_str!("../../disturbances/rise_prone.ron"),
-    ),
-    (
-        "rise_hands_and_feet",
-        include_str!("../../disturbances/rise_hands_and_feet.ron"),
-    ),
-    (
-        "rise_kneeling",
-        include_str!("../../disturbances/rise_kneeling.ron"),
-    ),
-];
+/// The shipped ones, each named after its controller.
+static SHIPPED: Dir = include_dir!("$CARGO_MANIFEST_DIR/disturbances");
 
 /// Whether the character of a shipped controller has a shipped disturbance.
 #[must_use]
 pub fn is_shipped(controller: &str) -> bool {
-    SHIPPED.iter().any(|(name, _)| *name == controller)
+    SHIPPED.contains(format!("{controller}.ron"))
 }
 
 /// The shipped disturbance of a controller.
@@ -140,14 +113,11 @@ pub fn is_shipped(controller: &str) -> bool {
 /// # Errors
 /// [`Error::Unknown`] with those that there are.
 pub fn shipped(controller: &str) -> Result<Source> {
-    let names = || SHIPPED.iter().map(|(name, _)| *name);
-    let found = SHIPPED.iter().find(|(name, _)| *name == controller);
+    let all = input::shipped(&SHIPPED);
+    let found = all.iter().find(|(name, _)| *name == controller);
     let (name, text) = found.ok_or_else(|| {
-        Error::unknown(
-            "shipped disturbance for the controller",
-            controller,
-            names(),
-        )
+        let names = all.iter().map(|(name, _)| *name);
+        Error::unknown("shipped disturbance for the controller", controller, names)
     })?;
     Ok(Source::new(
         format!("built-in disturbances/{name}.ron"),
@@ -236,7 +206,7 @@ mod tests {
     #[test]
     fn the_shipped_ones_fit_the_humanoid() {
         let model = Model::load("humanoid").unwrap();
-        for (name, _) in SHIPPED {
+        for (name, _) in input::shipped(&SHIPPED) {
             let d = Disturbance::parse(&shipped(name).unwrap(), &model).unwrap();
             assert!(d.within > 0.0 && is_shipped(name));
         }

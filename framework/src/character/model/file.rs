@@ -5,13 +5,18 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use include_dir::{Dir, include_dir};
+
 use crate::character::kinematics::Kinematics;
 use crate::character::model::definition::{Foot, Hand, Joint, Link, MOST_LINKS, Model};
 use crate::character::model::schema::{CharacterFile, JointEntry, LinkEntry};
 use crate::character::model::{digest, tree};
 use crate::character::shape::{Point, Shape};
 use crate::character::state::State;
-use crate::input::{Error, FieldPath, Result, Source, check};
+use crate::input::{Error, FieldPath, Result, Source, check, shipped};
+
+/// One file each.
+static CHARACTERS: Dir = include_dir!("$CARGO_MANIFEST_DIR/characters");
 
 /// The largest mass, inertia, torque or gain.
 const MOST: f64 = 1e6;
@@ -19,12 +24,11 @@ const MOST: f64 = 1e6;
 const FURTHEST: f64 = 100.0;
 
 impl Model {
-    /// The built-in characters by name.
-    pub const BUILT_IN: [(&'static str, &'static str); 3] = [
-        ("humanoid", include_str!("../../../characters/humanoid.ron")),
-        ("lion", include_str!("../../../characters/lion.ron")),
-        ("sumo", include_str!("../../../characters/sumo.ron")),
-    ];
+    /// The built-in characters: name and text, by name.
+    #[must_use]
+    pub fn built_in() -> Vec<(&'static str, &'static str)> {
+        shipped(&CHARACTERS)
+    }
 
     /// A built-in character by name, or a character file by path.
     ///
@@ -39,11 +43,12 @@ impl Model {
     /// # Ok::<(), aplomb_framework::Error>(())
     /// ```
     pub fn load(name_or_path: &str) -> Result<Arc<Self>> {
-        let source = match Self::BUILT_IN.iter().find(|(n, _)| *n == name_or_path) {
+        let built_in = Self::built_in();
+        let source = match built_in.iter().find(|(n, _)| *n == name_or_path) {
             Some((name, text)) => Source::new(format!("built-in {name}"), *text),
             None => match Source::read(Path::new(name_or_path)) {
                 Err(Error::Read { reason, .. }) if !Path::new(name_or_path).exists() => {
-                    let known = Self::BUILT_IN.iter().map(|(n, _)| *n);
+                    let known = built_in.iter().map(|(n, _)| *n);
                     return Err(Error::Read {
                         path: name_or_path.into(),
                         reason: format!(

@@ -13,6 +13,7 @@ use serde::Serialize;
 
 use crate::exercise::Task;
 use crate::search::dimension::Dimension;
+use crate::search::tune::layout::folded;
 
 /// A kind of controller whose spec can be optimised.
 pub trait Tunable: Spec + Clone + Serialize + Sync {
@@ -129,7 +130,7 @@ pub fn text_of<T: Spec + Serialize>(
     for line in header.lines() {
         let _ = writeln!(text, "// {line}");
     }
-    text + &body + "\n"
+    text + &folded(&body)
 }
 
 #[cfg(test)]
@@ -150,7 +151,7 @@ mod tests {
         let same = at(&spec, &model, &point_of(&spec, &model));
         let exercise = Task::of(&skill("balance")).unwrap();
         let text = text_of(&contract, Some(&exercise), &same, "Why.\nHow.");
-        assert!(text.contains("exercise: Stand(forward: (38"), "{text}");
+        assert!(text.contains("exercise: Stand("), "{text}");
         assert!(text.starts_with("// Why.\n// How.\n("), "{text}");
         let (again, back) = spec_of::<BalanceSpec>(&Source::new("x", text)).unwrap();
         assert_eq!((again, &back), (contract, &same));
