@@ -253,9 +253,7 @@ fn comment(r: &Report) -> String {
         .map(|(k, v)| format!("{k} = {v}"))
         .collect();
     format!(
-        "The trajectory{} was found by CMA-ES in {} dimensions, seed {}, {} evaluations:\n\
-         objective {:.3}, centre of pressure {:.3}, {} of {} perturbed starts succeed \
-         (without it {:.3}, {:.3}, {}).",
+        "The trajectory{} was found by CMA-ES in {} dimensions, seed {}, {} evaluations.",
         if parameters.is_empty() {
             String::new()
         } else {
@@ -264,13 +262,6 @@ fn comment(r: &Report) -> String {
         r.dimensions,
         r.seed,
         r.evaluations,
-        r.optimised.objective,
-        r.optimised.cop_norm,
-        r.optimised.successes,
-        r.optimised.starts,
-        r.flat.objective,
-        r.flat.cop_norm,
-        r.flat.successes,
     )
 }
 

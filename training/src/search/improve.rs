@@ -244,11 +244,9 @@ fn line_in<T: Tunable>(source: &Source, task: &Task) -> Result<String> {
 /// Written over the controller.
 fn comment(task: &Task, plan: &Plan<'_>, found: &Found) -> String {
     format!(
-        "Optimised by CMA-ES over {}, seed {}, {} evaluations: {} reached, cost {:.4}.",
+        "Optimised by CMA-ES over {}, seed {}, {} evaluations.",
         task.starts_in_words(found.starts),
         plan.seed,
         found.evaluations,
-        found.best.reached,
-        found.best.cost
     )
 }
