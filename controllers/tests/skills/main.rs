@@ -6,6 +6,7 @@
 )]
 
 mod characters;
+mod learned;
 mod pose;
 mod step;
 

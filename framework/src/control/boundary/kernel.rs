@@ -22,12 +22,14 @@ pub enum DecisionFunction {
     Gaussian {
         /// Above 0.
         gamma: f64,
-        /// Support vectors, normalised like z; at most [`MOST_SUPPORT_VECTORS`](crate::control::boundary::MOST_SUPPORT_VECTORS).
-        support: Vec<Vec<f64>>,
-        /// One a support vector.
-        weights: Vec<f64>,
         /// The score far away from all support vectors.
         offset: f64,
+        /// Support vectors, normalised like z; at most [`MOST_SUPPORT_VECTORS`](crate::control::boundary::MOST_SUPPORT_VECTORS).
+        #[serde(with = "crate::control::boundary::packed::vectors")]
+        support: Vec<Vec<f64>>,
+        /// One a support vector.
+        #[serde(with = "crate::control::boundary::packed::weights")]
+        weights: Vec<f64>,
     },
 }
 

@@ -8,7 +8,8 @@
 use std::fmt;
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::control::boundary::kernel::DecisionFunction;
 use crate::input::{Result, Source};
@@ -22,10 +23,21 @@ pub const MOST_SUPPORT_VECTORS: usize = 20_000;
 /// The largest boundary file that is read: 32 MiB.
 pub const LARGEST_BOUNDARY: u64 = 32 << 20;
 
+/// The version of boundary files that is written.
+pub const VERSION: u8 = 2;
+
 /// A learned boundary, as data. Valid for one controller of one character.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Boundary {
+    /// Of the file: 1 (also if there is none) or [`VERSION`].
+    #[serde(default = "first", deserialize_with = "known")]
+    pub version: u8,
+    /// Where it comes from, in a sentence.
+    pub provenance: String,
+    /// What it was learned from, and how often it is right.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub figures: Option<BoundaryFigures>,
     /// Name of the controller whose successes it separates from its failures.
     pub controller: String,
     /// Name of the character that it was learned with.
@@ -38,12 +50,57 @@ pub struct Boundary {
     pub mean: Vec<f64>,
     /// One a feature, in its unit, above 0.
     pub scale: Vec<f64>,
-    /// From z to the score.
-    pub decision: DecisionFunction,
     /// From the score to a probability.
     pub calibration: Calibration,
-    /// Where it comes from, in a sentence or two: seed, samples, kernel, how often it is right.
-    pub provenance: String,
+    /// From z to the score.
+    pub decision: DecisionFunction,
+}
+
+/// What a boundary was learned from, and how often it is right. All but counts and constants are
+/// parts of 1.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoundaryFigures {
+    /// It was trained on so many.
+    pub rollouts: usize,
+    /// Of the rollouts.
+    pub seed: u64,
+    /// Rollouts that succeeded.
+    pub successes: f64,
+    /// `linear`, `poly2`, `poly3` or `rbf`.
+    pub kernel: String,
+    /// Price of a violated margin.
+    pub c: f64,
+    /// Kernel coefficient.
+    pub gamma: f64,
+    /// Rollouts that carry the boundary.
+    pub support_vectors: usize,
+    /// It was tested on so many others.
+    pub tested: usize,
+    /// Of those, foretold rightly.
+    pub accuracy: f64,
+    /// Mean of the accuracies on successes and on failures.
+    pub balanced_accuracy: f64,
+    /// The same of the nearest neighbour.
+    pub balanced_accuracy_of_nearest_neighbour: f64,
+    /// The same of the hand-written precondition.
+    pub balanced_accuracy_of_hand_written: f64,
+}
+
+/// Of files that tell none.
+fn first() -> u8 {
+    1
+}
+
+fn known<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<u8, D::Error> {
+    let version = u8::deserialize(from)?;
+    if (1..=VERSION).contains(&version) {
+        return Ok(version);
+    }
+    let accepted = "1 (vectors as lists) or 2 (vectors packed); learn it anew with `aplomb train preconditions`";
+    Err(D::Error::custom(format!(
+        "version is {version}; accepted: {accepted}"
+    )))
 }
 
 /// Probability of success: 1 / (1 + exp(slope · score + offset)).
@@ -159,6 +216,9 @@ pub(crate) mod tests {
         static DIGEST: LazyLock<String> =
             LazyLock::new(|| Model::load("humanoid").unwrap().digest());
         Boundary {
+            version: VERSION,
+            provenance: "Written by hand.".to_owned(),
+            figures: None,
             controller: "balance".to_owned(),
             character: "humanoid".to_owned(),
             character_digest: DIGEST.clone(),
@@ -170,7 +230,6 @@ pub(crate) mod tests {
                 slope: -2.0,
                 offset: 0.5,
             },
-            provenance: "Written by hand.".to_owned(),
         }
     }
 

@@ -181,7 +181,8 @@ impl Machine {
 
 /// A standardised row in steps of one over [`SUPPORT_STEPS`].
 fn rounded(row: &[f64]) -> Vec<f64> {
-    let rounded = |z: &f64| (z * SUPPORT_STEPS).round() / SUPPORT_STEPS;
+    // 0 is added so that there is no −0, which has no whole number of steps.
+    let rounded = |z: &f64| (z * SUPPORT_STEPS).round() / SUPPORT_STEPS + 0.0;
     row.iter().map(rounded).collect()
 }
 
