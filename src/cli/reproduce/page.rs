@@ -76,7 +76,11 @@ impl Page {
         if !used.is_empty() {
             page += "\n## How it was made\n\n| command | took |\n|---|---:|\n";
             for used in used {
-                let _ = writeln!(page, "| `{}` | {:.0} s |", used.command, used.wall_s);
+                let (command, note) = match used.command.split_once(" (") {
+                    Some((command, note)) => (command, format!(" ({note}")),
+                    None => (used.command.as_str(), String::new()),
+                };
+                let _ = writeln!(page, "| `{command}`{note} | {:.0} s |", used.wall_s);
             }
         }
         page
@@ -107,7 +111,7 @@ mod tests {
         let mut page = Page::new("Of pushes", "How hard\n   they are.");
         page.table(&["way", "N·s"], &[vec!["forward".into(), "40".into()]]);
         let used = Used {
-            command: "aplomb run".into(),
+            command: "aplomb run --push I (I = 1)".into(),
             date: "2026-01-31".into(),
             wall_s: 2.4,
             jobs: 2,
@@ -124,7 +128,7 @@ mod tests {
             "2 jobs",
             "\nHow hard they are.\n",
             "| way | N·s |\n|---|---:|\n| forward | 40 |\n",
-            "| `aplomb run` | 2 s |",
+            "| `aplomb run --push I` (I = 1) | 2 s |",
         ] {
             assert!(text.contains(part), "{part} is not in\n{text}");
         }

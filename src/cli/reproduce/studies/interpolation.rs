@@ -51,11 +51,11 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
         ]);
     }
     page.paragraph(&format!(
-        "Of {} durations between the learned ones {} succeed. It fails at: {}.",
+        "Durations between the learned ones: {} tried, {} succeed. It fails at: {}.",
         good.len() + bad.len(),
         good.len(),
         if bad.is_empty() {
-            "none of them".to_owned()
+            "none".to_owned()
         } else {
             bad.join(", ")
         }

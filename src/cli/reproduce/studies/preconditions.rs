@@ -75,8 +75,7 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
          rollouts to test with. Balanced accuracy, in percent, is the mean of the parts of successes and of failures
          that were foretold; 50 is guessing, ± is 1.96 standard errors of the test set. The machine's kernel and
          constants are chosen by cross-validation on the training set. *Hand-written* is the condition of the
-         controller's file as it stands; it was written to be safe, not to be accurate, so it often refuses what
-         would succeed. The boundaries that are shipped were learned from more rollouts than these.",
+         controller's file as it stands. The boundaries that are shipped were learned from more rollouts than these.",
     );
     let seed = work.settings.seed;
     let (samples, test) = work.size((120, 60), (1500, 750));

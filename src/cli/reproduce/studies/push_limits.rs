@@ -78,7 +78,7 @@ impl Sweep {
 fn taken(impulse: f64, run: &Value) -> Taken {
     let events = || run["events"].as_array().into_iter().flatten();
     let after = || events().filter(|e| e["kind"] == "switch" && e["t"].as_f64() > Some(AT));
-    let settled = match after().last() {
+    let settled = match after().next_back() {
         None => Some(0.0),
         Some(last) if last["role"] == "balance" => last["t"].as_f64().map(|t| t - AT),
         Some(_) => None,

@@ -89,8 +89,10 @@ fn row(skill: &Skill) -> Vec<String> {
             "–".to_owned()
         },
         share.unwrap_or_else(|| "–".to_owned()),
-        least.map_or("–".to_owned(), |c| {
-            format!("{}, {}", c.friction, c.torque)
-        }),
+        match least {
+            None => "–".to_owned(),
+            Some(c) if c.fraction == Some(1.0) => "every world".to_owned(),
+            Some(c) => format!("{}, {}", c.friction, c.torque),
+        },
     ]
 }
