@@ -69,13 +69,8 @@ fn a_search_is_told_as_json_and_its_file_is_a_controller() {
     assert!(number("wall_s") > 0.0);
     let file = folder.path().join("better.ron");
     let text = std::fs::read_to_string(&file).unwrap();
-    let header = format!(
-        "evaluations: {} reached, cost {:.4}.\n",
-        search["reached"],
-        number("cost")
-    );
-    assert!(text.lines().next().unwrap().contains("seed 3, "), "{text}");
-    assert!(text.contains(&header), "{text}");
+    let header = text.lines().next().unwrap();
+    assert!(header.ends_with("seed 3, 17 evaluations."), "{header}");
     // Put in the place of the first, it begins where the search has come to.
     std::fs::copy(&file, folder.path().join("tuck.ron")).unwrap();
     let again =
