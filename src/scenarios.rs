@@ -48,7 +48,7 @@ const CLIPS: &str = "clips";
 /// A shipped scenario by name, or a scenario file by path.
 ///
 /// # Errors
-/// An unknown name, with the nearest; an unreadable or invalid file, named with line and field.
+/// An unknown name, with the nearest; an unreadable or invalid file, with the place of what is refused.
 ///
 /// ```
 /// let story = aplomb::scenarios::load("story")?;

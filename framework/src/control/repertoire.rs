@@ -105,7 +105,7 @@ impl Part {
 /// `repertoires/humanoid.ron`), and builds its supervisor for a character.
 ///
 /// # Errors
-/// Unreadable or invalid files, named with line and field; a pool without a valid fallback.
+/// Unreadable or invalid files, with the place of what is refused; a pool without a valid fallback.
 pub fn load(name_or_path: &str, registry: &Registry, model: &Arc<Model>) -> Result<Supervisor> {
     let (source, folder) = open(name_or_path, registry)?;
     build(&source, folder, registry, model)

@@ -159,7 +159,7 @@ impl Scenario {
     /// Reads and validates a scenario file.
     ///
     /// # Errors
-    /// An unreadable or invalid file, named with line and field.
+    /// an unreadable or invalid file, with the place of what is refused.
     pub fn read(path: &Path) -> Result<Self> {
         Self::parse(&Source::read(path)?)
     }

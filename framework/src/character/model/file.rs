@@ -33,7 +33,7 @@ impl Model {
     /// A built-in character by name, or a character file by path.
     ///
     /// # Errors
-    /// An unreadable or invalid file, named with line and field.
+    /// an unreadable or invalid file, with the place of what is refused.
     ///
     /// ```
     /// # use aplomb_framework::character::Model;

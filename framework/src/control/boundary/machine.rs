@@ -134,7 +134,7 @@ impl Boundary {
     /// Reads a boundary from text and checks all of it that can be checked without the character.
     ///
     /// # Errors
-    /// Unknown features, wrong counts, numbers out of bounds: with file, line and field.
+    /// Unknown features, wrong counts, numbers out of bounds: with file, line, column and field.
     pub fn parse(source: &Source) -> Result<Self> {
         let boundary: Self = source.parse()?;
         boundary.check().map_err(|e| source.locate(e))?;
