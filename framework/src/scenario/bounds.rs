@@ -2,7 +2,7 @@
 //!
 //! [`Scenario`] → nothing, or the first field that is out of bounds, where it stands.
 
-use crate::character::{Point, Shape};
+use crate::character::Point;
 use crate::input::{Error, Result, Source};
 use crate::scenario::expectation::Expectation;
 use crate::scenario::file::{Scenario, ScheduledInput};
@@ -188,18 +188,10 @@ impl Scenario {
             let of = |e: Error| e.placed(&source.place(&entry.name));
             finite(field, self.point(point).map_err(of)?)?;
         }
-        match entry.shape {
-            Shape::Capsule { radius, from, to } => {
-                check("radius", radius, 1e-3, 100.0)?;
-                finite("shape.from", from)?;
-                finite("shape.to", to)
-            }
-            Shape::Box { half, centre } => {
-                check("half", half[0], 1e-3, 100.0)?;
-                check("half", half[1], 1e-3, 100.0)?;
-                finite("shape.centre", centre)
-            }
-        }
+        entry.shape.check(
+            |f, length| check(f.split('.').next().unwrap_or(f), length, 1e-3, 100.0),
+            |f, point| finite(&format!("shape.{f}"), point),
+        )
     }
 
     fn validate_hinge(

@@ -12,7 +12,7 @@ use crate::character::model::definition::{Foot, Hand, Joint, Link, MOST_LINKS, M
 use crate::character::model::schema::{CharacterFile, JointEntry, LinkEntry};
 use crate::character::model::tree::{name, quoted};
 use crate::character::model::{digest, tree};
-use crate::character::shape::{Point, Shape};
+use crate::character::shape::Point;
 use crate::character::state::State;
 use crate::input::{Error, Result, Source, shipped};
 
@@ -191,18 +191,11 @@ fn link(source: &Source, entry: &LinkEntry, names: &[&str]) -> Result<Link> {
     positive(source, &field("mass"), who, entry.mass)?;
     positive(source, &field("inertia"), who, entry.inertia)?;
     point(source, &field("com"), who, entry.com)?;
-    match entry.shape {
-        Shape::Capsule { radius, from, to } => {
-            positive(source, &field("shape.radius"), who, radius)?;
-            point(source, &field("shape.from"), who, from)?;
-            point(source, &field("shape.to"), who, to)?;
-        }
-        Shape::Box { half, centre } => {
-            positive(source, &field("shape.half.0"), who, half[0])?;
-            positive(source, &field("shape.half.1"), who, half[1])?;
-            point(source, &field("shape.centre"), who, centre)?;
-        }
-    }
+    let of_shape = |f: &str| field(&format!("shape.{f}"));
+    entry.shape.check(
+        |f, length| positive(source, &of_shape(f), who, length),
+        |f, p| point(source, &of_shape(f), who, p),
+    )?;
     let joint = entry
         .joint
         .as_ref()
