@@ -1,7 +1,7 @@
 //! Draws a character: filled limbs in layers, the far side darker and behind, a face that shows
 //! where it looks.
 
-use aplomb_framework::character::{Kinematics, Link, Model, Point, Shape, State};
+use aplomb_framework::character::{Kinematics, Link, Model, Outline, Point, State};
 use svg::node::element::{Circle, Group, Polyline};
 
 use super::camera::Camera;
@@ -87,68 +87,43 @@ fn layers(model: &Model) -> Vec<(Side, Vec<usize>)> {
         .collect()
 }
 
-/// A piece of a limb, world frame.
-enum Piece {
-    /// Thick line with round ends: ends, radius in m.
-    Stroke([Point; 2], f64),
-    /// Corners.
-    Area([Point; 4]),
-}
-
-/// The point of a shape's middle line that is nearest to a point, and the shape's half thickness.
-fn nearest(shape: &Shape, to: Point) -> (Point, f64) {
-    match *shape {
-        Shape::Capsule {
-            radius,
-            from,
-            to: end,
-        } => {
-            let d = [end[0] - from[0], end[1] - from[1]];
-            let along = (to[0] - from[0]) * d[0] + (to[1] - from[1]) * d[1];
-            let t = (along / (d[0] * d[0] + d[1] * d[1]).max(1e-12)).clamp(0.0, 1.0);
-            ([from[0] + t * d[0], from[1] + t * d[1]], radius)
-        }
-        Shape::Box { half, centre } => {
-            let inside = |k: usize| to[k].clamp(centre[k] - half[k], centre[k] + half[k]);
-            ([inside(0), inside(1)], half[0].min(half[1]))
-        }
-    }
-}
-
-/// Corners of a box in its own frame, counter-clockwise.
-pub(super) fn corners(half: Point, centre: Point) -> [Point; 4] {
-    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-        .map(|[x, y]| [centre[0] + x * half[0], centre[1] + y * half[1]])
-}
+/// A piece of a limb, world frame, m: two corners are a thick line with round ends.
+type Piece = Outline;
 
 fn pieces(model: &Model, poses: &Kinematics, limb: &[usize]) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for &i in limb {
         let link = &model.links[i];
         let world = |p: Point| poses.point(i, p);
-        pieces.push(match link.shape {
-            Shape::Capsule { radius, from, to } => Piece::Stroke([world(from), world(to)], radius),
-            Shape::Box { half, centre } => Piece::Area(corners(half, centre).map(world)),
+        let Outline { corners, radius } = link.shape.outline();
+        pieces.push(Piece {
+            corners: corners.into_iter().map(world).collect(),
+            radius,
         });
         // Bridges between the outlines of neighbours, such as the neck.
         let Some(joint) = &link.joint else { continue };
         let parent = &model.links[joint.parent];
-        let (own, radius) = nearest(&link.shape, [0.0, 0.0]);
-        let (others, other_radius) = nearest(&parent.shape, joint.anchor);
+        let (own, radius) = link.shape.nearest([0.0, 0.0]);
+        let (others, other_radius) = parent.shape.nearest(joint.anchor);
         let share = if i == model.head { 0.6 } else { 0.85 };
         let thin = share * radius.min(other_radius);
-        pieces.push(Piece::Stroke([world([0.0, 0.0]), world(own)], thin));
+        pieces.push(stroke(world([0.0, 0.0]), world(own), thin));
         if limb.contains(&joint.parent) {
             let from = poses.point(joint.parent, others);
-            pieces.push(Piece::Stroke([from, world([0.0, 0.0])], thin));
+            pieces.push(stroke(from, world([0.0, 0.0]), thin));
         }
     }
     let finite = |p: &Point| p[0].is_finite() && p[1].is_finite();
-    pieces.retain(|p| match p {
-        Piece::Stroke(ends, _) => ends.iter().all(finite),
-        Piece::Area(corners) => corners.iter().all(finite),
-    });
+    pieces.retain(|p| p.corners.iter().all(finite));
     pieces
+}
+
+/// A thick line with round ends.
+fn stroke(from: Point, to: Point, radius: f64) -> Piece {
+    Piece {
+        corners: vec![from, to],
+        radius,
+    }
 }
 
 /// The pieces in one colour, `wider` px on all sides.
@@ -157,19 +132,15 @@ fn fill(pieces: &[Piece], camera: &Camera, colour: &str, wider: f64) -> Group {
         .set("stroke-linecap", "round")
         .set("stroke-linejoin", "round");
     for piece in pieces {
-        group = match piece {
-            Piece::Stroke([a, b], radius) => {
-                let (a, mut b) = (camera.at(*a), camera.at(*b));
-                b[0] += 0.01; // a line without length has no round ends in some viewers
-                let width = 2.0 * (radius * camera.scale + wider);
-                group.add(line(a, b, colour, width))
-            }
-            Piece::Area(corners) => {
-                let corners = corners.map(|c| camera.at(c));
-                let shape = polygon(&corners, colour).set("stroke", colour);
-                // Slightly rounded; the outline grows by as much as lines do.
-                group.add(shape.set("stroke-width", px(2.0 * wider)))
-            }
+        let corners: Vec<Point> = piece.corners.iter().map(|c| camera.at(*c)).collect();
+        let width = 2.0 * (piece.radius * camera.scale + wider);
+        group = if let [a, mut b] = corners[..] {
+            b[0] += 0.01; // a line without length has no round ends in some viewers
+            group.add(line(a, b, colour, width))
+        } else {
+            let shape = polygon(&corners, colour).set("stroke", colour);
+            // Slightly rounded; the outline grows by as much as lines do.
+            group.add(shape.set("stroke-width", px(width)))
         };
     }
     group
@@ -177,14 +148,9 @@ fn fill(pieces: &[Piece], camera: &Camera, colour: &str, wider: f64) -> Group {
 
 /// Nose and eye: whoever faces +x when upright looks to the right.
 fn face(model: &Model, poses: &Kinematics, camera: &Camera, skin: &Skin) -> Option<Group> {
-    let (middle, forward, up) = match model.links[model.head].shape {
-        Shape::Capsule { radius, from, to } => (
-            [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])],
-            radius,
-            radius + 0.5 * (to[1] - from[1]).abs(),
-        ),
-        Shape::Box { half, centre } => (centre, half[0], half[1]),
-    };
+    let shape = &model.links[model.head].shape;
+    let (middle, up) = (shape.middle(), shape.reach()[1]);
+    let (_, forward) = shape.nearest(middle);
     let world =
         |x: f64, y: f64| poses.point(model.head, [middle[0] + x * forward, middle[1] + y * up]);
     let nose = [

@@ -1,12 +1,12 @@
 //! One instant: ground, props, characters, marks, tags.
 
-use aplomb_framework::character::{Kinematics, Shape};
+use aplomb_framework::character::{Kinematics, Outline};
 use aplomb_framework::events::EventKind;
 use aplomb_framework::run::Trajectory;
 use svg::node::element::{Group, SVG};
 
 use super::GRAVITY;
-use super::body::{SKINS, corners, draw, pose};
+use super::body::{SKINS, draw, pose};
 use super::camera::Camera;
 use super::marks;
 use super::style::{
@@ -166,20 +166,26 @@ impl<'a> Scene<'a> {
             } else {
                 ("#c3cad1", "#4a545e")
             };
-            group = match prop.shape {
-                Shape::Capsule { radius, from, to } => {
-                    let (a, mut b) = (world(from), world(to));
-                    b[0] += 0.01;
-                    let wide = 2.0 * radius * camera.scale;
-                    group
-                        .add(line(a, b, edge, wide).set("stroke-linecap", "round"))
-                        .add(line(a, b, fill, (wide - 2.0).max(0.5)).set("stroke-linecap", "round"))
-                }
-                Shape::Box { half, centre } => group.add(
-                    polygon(&corners(half, centre).map(world), fill)
-                        .set("stroke", edge)
-                        .set("stroke-width", 1),
-                ),
+            let Outline { corners, radius } = prop.shape.outline();
+            let corners: Vec<[f64; 2]> = corners.into_iter().map(world).collect();
+            let wide = 2.0 * radius * camera.scale;
+            group = if let [a, mut b] = corners[..] {
+                b[0] += 0.01;
+                group
+                    .add(line(a, b, edge, wide).set("stroke-linecap", "round"))
+                    .add(line(a, b, fill, (wide - 2.0).max(0.5)).set("stroke-linecap", "round"))
+            } else if radius > 0.0 {
+                let round = |colour: &str, width: f64| {
+                    let shape = polygon(&corners, colour).set("stroke", colour);
+                    shape
+                        .set("stroke-width", width)
+                        .set("stroke-linejoin", "round")
+                };
+                let inner = round(fill, (wide - 2.0).max(0.5));
+                group.add(round(edge, wide)).add(inner)
+            } else {
+                let shape = polygon(&corners, fill).set("stroke", edge);
+                group.add(shape.set("stroke-width", 1))
             };
         }
         group

@@ -4,7 +4,7 @@
 //! [`State`] → [`Kinematics`] → sensors, dynamics, controllers. One pass, no allocation.
 
 use crate::character::model::Model;
-use crate::character::shape::{Point, Shape};
+use crate::character::shape::{Outline, Point};
 use crate::character::state::State;
 use crate::math::sin_cos;
 
@@ -146,21 +146,9 @@ pub fn put_on_ground(model: &Model, state: &mut State, lift: f64) {
     kinematics.update(model, state);
     let mut lowest = f64::INFINITY;
     for (i, link) in model.links.iter().enumerate() {
-        match link.shape {
-            Shape::Capsule { radius, from, to } => {
-                for end in [from, to] {
-                    lowest = lowest.min(kinematics.point(i, end)[1] - radius);
-                }
-            }
-            Shape::Box { half, centre } => {
-                for corner in [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]] {
-                    let p = [
-                        centre[0] + corner[0] * half[0],
-                        centre[1] + corner[1] * half[1],
-                    ];
-                    lowest = lowest.min(kinematics.point(i, p)[1]);
-                }
-            }
+        let Outline { corners, radius } = link.shape.outline();
+        for corner in corners {
+            lowest = lowest.min(kinematics.point(i, corner)[1] - radius);
         }
     }
     state.q[1] += lift - lowest;

@@ -12,5 +12,5 @@ pub use dynamics::Dynamics;
 pub(crate) use kinematics::turned;
 pub use kinematics::{Kinematics, LinkMotion, put_on_ground};
 pub use model::{Foot, Hand, Joint, Link, MOST_LINKS, Model};
-pub use shape::{Point, Shape};
+pub use shape::{Outline, Point, Shape, Solid};
 pub use state::{State, wrapped};

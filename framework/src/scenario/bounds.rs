@@ -176,16 +176,6 @@ fn check_shape(shape: Shape) -> Result<()> {
         let near = check::point(p, FURTHEST);
         near.map_err(|e| e.inside(field))
     };
-    match shape {
-        Shape::Capsule { radius, from, to } => {
-            check::within("radius", radius, 1e-3..=100.0)?;
-            point("from", from)?;
-            point("to", to)
-        }
-        Shape::Box { half, centre } => {
-            check::within(("half", 0), half[0], 1e-3..=100.0)?;
-            check::within(("half", 1), half[1], 1e-3..=100.0)?;
-            point("centre", centre)
-        }
-    }
+    let length = |field, length| check::within(field, length, 1e-3..=100.0);
+    shape.check(length, point)
 }

@@ -5,7 +5,7 @@
 use xxhash_rust::xxh3::Xxh3;
 
 use crate::character::model::definition::{Foot, Hand, Link};
-use crate::character::shape::{Point, Shape};
+use crate::character::shape::Point;
 
 /// Everything that moves, holds and limits the character: tree, joint names, masses, inertias,
 /// lengths, outlines, ranges, torques, servos, feet and hands. Neither the layout of its file nor
@@ -55,17 +55,9 @@ impl Hash {
     fn link(&mut self, link: &Link) {
         self.numbers(&[link.mass, link.inertia]);
         self.points(&[link.com]);
-        match link.shape {
-            Shape::Capsule { radius, from, to } => {
-                self.count(0);
-                self.numbers(&[radius]);
-                self.points(&[from, to]);
-            }
-            Shape::Box { half, centre } => {
-                self.count(1);
-                self.points(&[half, centre]);
-            }
-        }
+        let (kind, numbers) = link.shape.numbers();
+        self.count(kind);
+        self.numbers(&numbers);
         if let Some(joint) = &link.joint {
             self.count(joint.name.len());
             self.0.update(joint.name.as_bytes());

@@ -194,18 +194,8 @@ fn link(entry: &LinkEntry, names: &[&str]) -> Result<Link> {
 }
 
 fn shape(shape: Shape) -> Result<()> {
-    match shape {
-        Shape::Capsule { radius, from, to } => {
-            check::above("radius", radius, 0.0, MOST)?;
-            point("from", from)?;
-            point("to", to)
-        }
-        Shape::Box { half, centre } => {
-            check::above(("half", 0), half[0], 0.0, MOST)?;
-            check::above(("half", 1), half[1], 0.0, MOST)?;
-            point("centre", centre)
-        }
-    }
+    let length = |field, length| check::above(field, length, 0.0, MOST);
+    shape.check(length, |field, p| point(field, p))
 }
 
 fn joint(entry: &JointEntry, names: &[&str]) -> Result<Joint> {
