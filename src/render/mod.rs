@@ -20,6 +20,8 @@ mod palette;
 mod plot;
 mod raster;
 mod scene;
+#[cfg(test)]
+mod seen;
 mod series;
 mod style;
 mod timeline;

@@ -1,7 +1,8 @@
 use aplomb_training::anticipation::basis::Basis;
 
 use super::*;
-use crate::render::raster;
+use crate::render::seen::{Sight, assert_seen};
+use crate::render::style::{FORCE, INK};
 use crate::render::tests::recording;
 
 /// Places of the centre of pressure and of the reference in a row of a recording, from its end.
@@ -44,10 +45,58 @@ fn drawn_with(
 
 fn checked(drawings: Vec<Drawing>) -> Vec<Drawing> {
     for Drawing { name, svg } in &drawings {
-        raster::pixels(svg, 0.5).unwrap();
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+        let seen = assert_seen(svg, &sights(name));
+        let crowded = seen.crowded();
+        assert!(crowded.is_empty(), "{name}: {crowded:?}");
     }
     drawings
+}
+
+/// What each drawing must show, whatever its numbers are.
+fn sights(name: &str) -> Vec<Sight<'static>> {
+    let texts: &[&str] = match name {
+        "cop" => &[
+            "without anticipation",
+            "with anticipation",
+            "(m)",
+            "(s)",
+            "base of support",
+        ],
+        "cmrt" => &["preparation", "task", "decay", "knots", "(m)", "(s)"],
+        "convergence" => &["best objective", "evaluations", "best so far"],
+        "family" => &["ma<s>s", "(m)", "(s)"],
+        "components" => &["component 1", "mean", "displacement (m)", "time (s)"],
+        _ => &[
+            "variance explained (%)",
+            "principal component",
+            "each alone",
+        ],
+    };
+    let mut sights: Vec<_> = texts.iter().map(|t| Sight::Text(t, 1)).collect();
+    match name {
+        "cmrt" => sights.push(Sight::Curve(INK, 300, 400.0)),
+        "components" => sights.push(Sight::Curve("#d55e00", 300, 200.0)),
+        _ => {}
+    }
+    sights
+}
+
+/// The centre of pressure is a curve in either panel, the course a curve of its steps.
+#[test]
+fn a_motion_has_curves() {
+    let figures = drawn(&recording(2500, |_, _| {}), |_| {});
+    let cop = assert_seen(&figures[0].svg, &[Sight::Curve(FORCE, 100, 100.0)]);
+    let long = cop.coloured(FORCE);
+    let long = long.iter().filter(|o| o.points >= 100);
+    let tops: Vec<f32> = long.map(|o| o.extent.top()).collect();
+    let panels = tops.iter().map(|y| usize::from(*y > 220.0));
+    assert_eq!(
+        panels.collect::<std::collections::BTreeSet<_>>().len(),
+        2,
+        "{tops:?}"
+    );
+    let steps = 2 * COURSE.len() - 1;
+    assert_seen(&figures[2].svg, &[Sight::Curve("#0072b2", steps, 300.0)]);
 }
 
 fn drawn(recording: &Trajectory, change: impl FnOnce(&mut Learned<'_>)) -> Vec<Drawing> {

@@ -1,7 +1,8 @@
 use aplomb_training::preconditions::report::{CurvePoint, NeighbourReport, Slice, SvmReport};
 
 use super::*;
-use crate::render::raster;
+use crate::render::seen::{Sight, assert_seen};
+use crate::render::style::INK;
 
 fn metrics(counts: [u64; 4]) -> Metrics {
     let [tp, fp, tn, fne] = counts;
@@ -92,11 +93,57 @@ fn report() -> Report {
 
 fn drawn(report: &Report) -> Vec<Figure> {
     let figures = figures(report).unwrap();
-    for Figure { title, svg, .. } in &figures {
-        raster::pixels(svg, 0.5).unwrap();
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{title}");
+    for figure in &figures {
+        let seen = assert_seen(&figure.svg, &sights(figure.title));
+        let crowded = seen.crowded();
+        assert!(crowded.is_empty(), "{}: {crowded:?}", figure.title);
     }
     figures
+}
+
+/// What each figure must show of any report.
+fn sights(title: &str) -> Vec<Sight<'static>> {
+    let texts: &[&str] = match title {
+        "ROC curve" => &[
+            "true positive rate (%)",
+            "false positive rate (%)",
+            "AUC 0.989",
+        ],
+        "Confusion matrices" => &["SVM", "nearest neighbour", "hand-made", "foretold:"],
+        "Accuracy against training size" => &["balanced accuracy (%)", "training samples"],
+        _ => &[
+            "probability of success",
+            "learned boundary: 50 %",
+            "test sample, failed",
+        ],
+    };
+    let mut sights: Vec<_> = texts.iter().map(|t| Sight::Text(t, 1)).collect();
+    match title {
+        "ROC curve" => sights.push(Sight::Curve(SVM, 200, 280.0)),
+        "Learned boundary" => sights.push(Sight::Curve(INK, 100, 100.0)),
+        _ => {}
+    }
+    sights
+}
+
+#[test]
+fn counts_and_curves_of_a_report_are_drawn() {
+    let figures = drawn(&report());
+    let counts = [
+        "770", "40", "1160", "30", "745", "85", "1115", "55", "520", "280",
+    ];
+    let cells = counts.map(|count| Sight::Text(count, 1));
+    assert_seen(&figures[1].svg, &cells);
+    // A line with six marks, and a sample of both beside it.
+    let learning = [
+        Sight::Curve(SVM, 6, 100.0),
+        Sight::Shapes(SVM, 9),
+        Sight::Shapes(NEIGHBOUR, 9),
+    ];
+    assert_seen(&figures[2].svg, &learning[..1]);
+    for sight in &learning[1..] {
+        assert_seen(&figures[2].svg, std::slice::from_ref(sight));
+    }
 }
 
 #[test]
@@ -119,9 +166,20 @@ fn what_a_report_does_not_have_is_not_drawn() {
     report.curve.clear();
     report.slice = None;
     report.nn.metrics = Metrics::default();
+    let figures = drawn(&report);
+    let titles: Vec<_> = figures.iter().map(|f| f.title).collect();
+    assert_eq!(titles, ["ROC curve", "Confusion matrices"]);
+    // Counts that no sum holds are shares all the same; their digits are wider than a cell.
     report.manual.true_positives = u64::MAX;
     report.manual.false_negatives = u64::MAX;
-    assert_eq!(drawn(&report).len(), 2);
+    let matrices = &super::figures(&report).unwrap()[1].svg;
+    assert_seen(
+        matrices,
+        &[
+            Sight::Text("100.0 %", 1),
+            Sight::Text("18446744073709551615", 2),
+        ],
+    );
 }
 
 #[test]
