@@ -5,32 +5,42 @@
 
 use std::path::Path;
 
-use aplomb_framework::input::{Error, Result, Source};
+use aplomb_framework::input::{self, Error, Result, Source};
 use aplomb_framework::scenario::Scenario;
+use include_dir::{Dir, include_dir};
 
-/// Every scenario of the folder under its name.
-macro_rules! shipped {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../scenarios/", $name, ".ron")))),*]
-    };
+static SCENARIOS: Dir = include_dir!("$CARGO_MANIFEST_DIR/scenarios");
+
+/// The shipped scenarios: name and text, by name. A clip's is `clips/` and the name of its controller
+/// file and command.
+#[must_use]
+pub fn shipped() -> Vec<(&'static str, &'static str)> {
+    input::shipped(&SCENARIOS)
 }
 
-/// The shipped scenarios: name and text.
-pub const SHIPPED: &[(&str, &str)] = shipped![
-    "clips/catch_ball",
-    "clips/dodge_tire",
-    "clips/duck_twice",
-    "clips/fast_bend",
-    "clips/hit_tire",
-    "clips/kick",
-    "clips/pull_box",
-    "clips/punch_bag",
-    "clips/push_dominoes",
-    "clips/slow_bend",
-    "push",
-    "standing",
-    "story",
+/// A name that a scenario had before, and the parameters that are set under it.
+struct Former {
+    name: &'static str,
+    now: &'static str,
+    set: &'static [(&'static str, f64)],
+}
+
+/// Scripts may still use these.
+const FORMER: [Former; 5] = [
+    former("clips/catch_ball", "clips/catch", &[]),
+    former("clips/fast_bend", "clips/bend", &[]),
+    former("clips/punch_bag", "clips/punch", &[]),
+    former("clips/push_dominoes", "clips/push", &[]),
+    former("clips/slow_bend", "clips/bend", &[("duration", 1.2)]),
 ];
+
+const fn former(
+    name: &'static str,
+    now: &'static str,
+    set: &'static [(&'static str, f64)],
+) -> Former {
+    Former { name, now, set }
+}
 
 /// The folder of the scenarios that `train cmrt` knows by name alone.
 const CLIPS: &str = "clips";
@@ -47,13 +57,20 @@ const CLIPS: &str = "clips";
 /// # Ok::<(), aplomb_framework::Error>(())
 /// ```
 pub fn load(name_or_path: &str) -> Result<Scenario> {
-    if let Some((name, text)) = SHIPPED.iter().find(|(n, _)| *n == name_or_path) {
-        return Scenario::parse(&Source::new(format!("built-in {name}"), *text));
+    let shipped = shipped();
+    let former = FORMER.iter().find(|f| f.name == name_or_path);
+    let name = former.map_or(name_or_path, |f| f.now);
+    if let Some((name, text)) = shipped.iter().find(|(n, _)| *n == name) {
+        let mut scenario = Scenario::parse(&Source::new(format!("built-in {name}"), *text))?;
+        for (key, value) in former.into_iter().flat_map(|f| f.set) {
+            scenario.set(key, *value)?;
+        }
+        return Ok(scenario);
     }
     let path = Path::new(name_or_path);
     let is_name = path.components().count() == 1 || path.starts_with(CLIPS);
     if !path.exists() && path.extension().is_none() && is_name {
-        let known = SHIPPED.iter().map(|(n, _)| *n);
+        let known = shipped.iter().map(|(n, _)| *n);
         return Err(Error::unknown("scenario", name_or_path, known));
     }
     let mut scenario = Scenario::read(path)?;
@@ -73,7 +90,8 @@ pub fn load(name_or_path: &str) -> Result<Scenario> {
 /// As [`load`].
 pub fn load_clip(name_or_path: &str) -> Result<Scenario> {
     let clip = format!("{CLIPS}/{name_or_path}");
-    if SHIPPED.iter().any(|(n, _)| *n == clip) {
+    let known = shipped().iter().any(|(n, _)| *n == clip);
+    if known || FORMER.iter().any(|f| f.name == clip) {
         return load(&clip);
     }
     if !Path::new(name_or_path).exists() && !name_or_path.contains(['/', '.']) {
@@ -84,7 +102,7 @@ pub fn load_clip(name_or_path: &str) -> Result<Scenario> {
 
 /// Names of the shipped clips, as [`load_clip`] takes them.
 pub fn clips() -> impl Iterator<Item = &'static str> {
-    let names = SHIPPED.iter().map(|(n, _)| *n);
+    let names = shipped().into_iter().map(|(n, _)| n);
     names.filter_map(|n| n.strip_prefix(CLIPS)?.strip_prefix('/'))
 }
 
@@ -102,9 +120,40 @@ mod tests {
 
     #[test]
     fn every_shipped_scenario_is_valid_and_carries_its_name() {
-        for (name, _) in SHIPPED {
-            assert_eq!(load(name).unwrap().name, *name);
+        for (name, _) in shipped() {
+            assert_eq!(load(name).unwrap().name, name);
         }
+    }
+
+    #[test]
+    fn a_clips_command_and_controller_file_have_its_name() {
+        let registry = aplomb_controllers::registry();
+        for clip in clips() {
+            assert!(
+                registry.file(&format!("clips/{clip}.ron")).is_some(),
+                "{clip}"
+            );
+            let text = shipped()
+                .into_iter()
+                .find(|(n, _)| n.ends_with(clip))
+                .unwrap()
+                .1;
+            assert!(
+                text.contains(&format!("Command(at: 0.0, text: \"{clip}")),
+                "{clip}"
+            );
+        }
+    }
+
+    #[test]
+    fn former_names_are_understood() {
+        for Former { name, now, .. } in FORMER {
+            assert_eq!(load(name).unwrap().name, now);
+            let clip = load_clip(name.strip_prefix("clips/").unwrap()).unwrap();
+            assert_eq!(clip.name, now);
+        }
+        let seconds = |name| load_clip(name).unwrap().parameter("duration");
+        assert_eq!(["slow_bend", "bend"].map(seconds), [1.2, 0.4].map(Some));
     }
 
     #[test]

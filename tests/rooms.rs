@@ -11,6 +11,7 @@ const CRATES: [(&str, &[&str]); 4] = [
     (
         "framework/src",
         &[
+            "math",
             "input",
             "events",
             "character",
@@ -64,8 +65,10 @@ fn leaves(tree: &str, before: &[String], found: &mut Vec<Vec<String>>) {
         parts.filter(|p| !p.is_empty()).map(str::to_owned).collect()
     };
     let Some(open) = tree.find('{') else {
-        let path = tree.split(" as ").next().unwrap();
-        found.push([before, &names(path)].concat());
+        let mut path = names(tree.split(" as ").next().unwrap());
+        // `{self, …}` names what the braces stand behind.
+        path.retain(|name| before.is_empty() || name != "self");
+        found.push([before, &path].concat());
         return;
     };
     let head = [before, &names(&tree[..open])].concat();
@@ -87,24 +90,45 @@ fn leaves(tree: &str, before: &[String], found: &mut Vec<Vec<String>>) {
     }
 }
 
-/// The paths within this crate that a text names, as places below `src`; `here` is the module of
-/// the text.
+/// A text without its comments.
+fn code(text: &str) -> String {
+    let mut code = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find("//").into_iter().chain(rest.find("/*")).min() {
+        code.push_str(&rest[..at]);
+        let (end, after) = if rest[at..].starts_with("//") {
+            ("\n", 0)
+        } else {
+            ("*/", 2)
+        };
+        let end = rest[at..].find(end).map_or(rest.len(), |e| at + e + after);
+        rest = &rest[end..];
+    }
+    code + rest
+}
+
+/// What a line that begins a `use` has after that word.
+fn tree(line: &str) -> Option<&str> {
+    let line = line.trim_start();
+    let public = line.strip_prefix("pub").map(str::trim_start);
+    let line = match public.and_then(|l| l.strip_prefix('(')) {
+        Some(scope) => scope.split_once(')')?.1.trim_start(),
+        None => public.unwrap_or(line),
+    };
+    line.strip_prefix("use ")
+}
+
+/// The paths within this crate that the `use` lines of a text name, as places below `src`; `here` is
+/// the module of the text.
 fn named(text: &str, here: &[String]) -> Vec<Vec<String>> {
     let mut found = Vec::new();
-    for statement in text.split(';') {
-        let line = statement.trim_start();
-        let line = line
-            .rsplit('\n')
-            .find(|l| l.contains("use "))
-            .map_or(line, |l| &statement[statement.rfind(l).unwrap()..]);
-        let Some(at) = line.find("use ") else {
-            continue;
-        };
-        let visibility = line[..at].trim();
-        if !(visibility.is_empty() || visibility.starts_with("pub")) {
-            continue;
+    let code = code(text);
+    for statement in code.split(';') {
+        let starts = statement.match_indices('\n').map(|(i, _)| i + 1);
+        let starts = [0].into_iter().chain(starts);
+        if let Some(tree) = starts.map(|i| &statement[i..]).find_map(tree) {
+            leaves(tree, &[], &mut found);
         }
-        leaves(&line[at + 4..], &[], &mut found);
     }
     let inside = |path: &Vec<String>| -> Option<Vec<String>> {
         let mut base: Vec<String> = here.to_vec();
@@ -251,6 +275,65 @@ fn folders_depend_downwards_and_nothing_goes_in_circles() {
     }
 }
 
+/// What the `use` lines of a text in `control/boundary/mod.rs` name, sorted, joined by blanks.
+fn read_uses(text: &str) -> String {
+    let here = ["control", "boundary"].map(str::to_owned);
+    let paths = named(text, &here);
+    let mut paths: Vec<String> = paths.iter().map(|p| p.join("::")).collect();
+    paths.sort();
+    paths.join(" ")
+}
+
+#[test]
+fn use_trees_are_read() {
+    for (text, expected) in [
+        ("use crate::a::B;", "a::B"),
+        ("use crate::a::B as C;", "a::B"),
+        ("use crate::a::*;", "a::*"),
+        (
+            "use crate::{a::{B, c::{self, D as E}}, f::G};",
+            "a::B a::c a::c::D f::G",
+        ),
+        ("use crate::a::{\n    B,\n    c::D,\n};", "a::B a::c::D"),
+        ("pub use crate::a::B;", "a::B"),
+        (
+            "pub(crate) use crate::a::B;\npub(super) use crate::c::D;",
+            "a::B c::D",
+        ),
+        ("pub(in crate::control) use crate::a::B;", "a::B"),
+        ("#[cfg(unix)]\nuse crate::a::B;", "a::B"),
+        (
+            "mod x {\n    use crate::a::B;\n}\nfn f() {}\nuse crate::c::D;",
+            "a::B c::D",
+        ),
+        (
+            "use self::a::B;\nuse super::c::D;",
+            "control::boundary::a::B control::c::D",
+        ),
+        ("use super::super::a::{self, B};", "a a::B"),
+        ("use std::fmt;\nuse serde::{Deserialize, self};", ""),
+    ] {
+        assert_eq!(read_uses(text), expected, "{text}");
+    }
+}
+
+#[test]
+fn comments_are_no_use_lines_and_hide_none() {
+    for (text, expected) in [
+        ("// use crate::a::B;\n/* use crate::c::D; */\nfn f() {}", ""),
+        ("//! How to use it; and when.\n\nuse crate::a::B;", "a::B"),
+        (
+            "use crate::{\n    // of use to it;\n    a::B, // and use that\n};",
+            "a::B",
+        ),
+        ("use crate::{a::B, /* c::D; */ e::F};", "a::B e::F"),
+        ("/// We use crate::x::Y;\nfn f() { g(); }", ""),
+        ("let reuse = 1;\nlet cause = reuse ;", ""),
+    ] {
+        assert_eq!(read_uses(text), expected, "{text}");
+    }
+}
+
 #[test]
 fn planted_violations_are_found() {
     let (root, order) = CRATES[0];
@@ -296,10 +379,17 @@ fn the_drawing_of_the_rooms_is_that_of_the_code() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(root);
         let arrows = between_folders(&arrows(&read(root), &folder));
         for place in order {
-            drawing += &format!("    {name}_{place}[{place}]\n");
-            for to in arrows.get(*place).into_iter().flatten() {
-                drawing += &format!("    {name}_{place} --> {name}_{to}\n");
+            drawing += &format!("    {name}_{place}[{place}]");
+            let to: Vec<String> = arrows
+                .get(*place)
+                .into_iter()
+                .flatten()
+                .map(|to| format!("{name}_{to}"))
+                .collect();
+            if !to.is_empty() {
+                drawing += &format!(" --> {}", to.join(" & "));
             }
+            drawing += "\n";
         }
         drawing += "  end\n";
     }

@@ -7,7 +7,7 @@ use aplomb_controllers::kinds::cmrt::{Cmrt, Spline};
 use aplomb_controllers::momentum::{Formulation, Gains, Momentum, Reference};
 use aplomb_controllers::registry;
 use aplomb_framework::character::{Dynamics, Model};
-use aplomb_framework::control::boundary::{Calibration, DecisionFunction};
+use aplomb_framework::control::boundary::{Calibration, DecisionFunction, VERSION};
 use aplomb_framework::control::{Boundary, Controller, Supervisor, repertoire};
 use aplomb_framework::input::Source;
 use aplomb_framework::run::Simulation;
@@ -140,6 +140,9 @@ fn learned_boundary(now: &Sensors) -> Boundary {
     let names = joints.chain(others.map(str::to_owned));
     let names = names.chain(["com_velocity_x".to_owned()]);
     let mut boundary = Boundary {
+        version: VERSION,
+        provenance: "Numbers without a meaning.".to_owned(),
+        figures: None,
         controller: "balance".to_owned(),
         character: now.model.name.clone(),
         character_digest: now.model.digest(),
@@ -154,7 +157,6 @@ fn learned_boundary(now: &Sensors) -> Boundary {
             slope: -1.0,
             offset: 0.0,
         },
-        provenance: "Numbers without a meaning.".to_owned(),
     };
     boundary.resolve(&now.model).unwrap();
     boundary

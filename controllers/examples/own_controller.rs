@@ -1,6 +1,7 @@
 //! A controller of one's own, from type to timeline: `wave` holds still and swings an arm.
 use aplomb_controllers::registry;
 use aplomb_controllers::servo::Servo;
+use aplomb_framework::math::cos;
 use aplomb_framework::prelude::*;
 
 /// Contract, servos, target pose (rad, one a joint), the joint that swings.
@@ -26,7 +27,7 @@ impl Controller for Wave {
     fn enter(&mut self, _: &Sensors) {} // nothing to forget
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
         let Self(_, servo, pose, joint) = self;
-        pose[*joint] = 0.8 - 0.8 * (5.0 * now.time).cos();
+        pose[*joint] = 0.8 - 0.8 * cos(5.0 * now.time);
         servo.track(now, pose, 1.0, torques); // N·m
     }
     fn clone_box(&self) -> Box<dyn Controller> {

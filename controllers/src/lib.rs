@@ -13,12 +13,22 @@
 //! They share [`momentum`] (momentum control with its gains, its quadratic program and solver), [`servo`]
 //! (joint servos) and [`target`] (poses by joint name).
 
+#![cfg_attr(
+    test,
+    allow(
+        clippy::disallowed_methods,
+        reason = "tests compare with the standard library's functions"
+    )
+)]
+
 pub mod kinds;
 pub mod momentum;
 pub mod servo;
 pub mod target;
 
 use aplomb_framework::control::Registry;
+use aplomb_framework::input::shipped;
+use include_dir::{Dir, include_dir};
 
 /// All the kinds of controllers and all shipped files.
 #[must_use]
@@ -31,58 +41,20 @@ pub fn registry() -> Registry {
         .with::<kinds::fall::FallSpec>()
         .with::<kinds::rest::RestSpec>()
         .with::<kinds::pose::PoseSpec>();
-    FILES
-        .iter()
-        .fold(registry, |r, (name, text)| r.with_file(name, text))
+    let all = FILES.iter().flat_map(|(folder, files)| {
+        let named = move |(name, text)| (format!("{folder}/{name}.ron"), text);
+        shipped(files).into_iter().map(named)
+    });
+    all.fold(registry, |r, (name, text)| r.with_file(name, text))
 }
 
-/// A file of this crate under its own name.
-macro_rules! shipped {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../", $name)))),*]
-    };
-}
-
-const FILES: &[(&str, &str)] = shipped![
-    "clips/bend.ron",
-    "clips/catch.ron",
-    "clips/dodge_tire.ron",
-    "clips/duck_twice.ron",
-    "clips/hit_tire.ron",
-    "clips/kick.ron",
-    "clips/pull_box.ron",
-    "clips/punch.ron",
-    "clips/push.ron",
-    "learned/balance.boundary.ron",
-    "learned/fall.boundary.ron",
-    "learned/protective_step.boundary.ron",
-    "learned/rise_hands_and_feet.boundary.ron",
-    "learned/rise_kneeling.boundary.ron",
-    "learned/rise_prone.boundary.ron",
-    "learned/rise_sitting.boundary.ron",
-    "learned/rise_supine.boundary.ron",
-    "learned/roll.boundary.ron",
-    "skills/bow.ron",
-    "skills/free_arms.ron",
-    "skills/lower.ron",
-    "skills/rise_hands_and_feet.ron",
-    "skills/rise_kneeling.ron",
-    "skills/rise_prone.ron",
-    "skills/rise_sitting.ron",
-    "skills/rise_supine.ron",
-    "skills/roll.ron",
-    "skills/roll_backward.ron",
-    "repertoires/humanoid.ron",
-    "repertoires/learned.ron",
-    "repertoires/limp.ron",
-    "repertoires/lion.ron",
-    "repertoires/paper.ron",
-    "repertoires/sumo.ron",
-    "skills/balance.ron",
-    "skills/balance_equality.ron",
-    "skills/fall.ron",
-    "skills/protective_step.ron",
-    "skills/rest.ron",
-    "skills/stance.ron",
-    "skills/stand_up.ron",
+/// The folders of this crate that are shipped, by name.
+static FILES: [(&str, Dir); 4] = [
+    ("clips", include_dir!("$CARGO_MANIFEST_DIR/clips")),
+    ("learned", include_dir!("$CARGO_MANIFEST_DIR/learned")),
+    (
+        "repertoires",
+        include_dir!("$CARGO_MANIFEST_DIR/repertoires"),
+    ),
+    ("skills", include_dir!("$CARGO_MANIFEST_DIR/skills")),
 ];

@@ -6,6 +6,7 @@
 //! would overshoot within a step of 1 ms, they are damped less.
 
 use aplomb_framework::character::Model;
+use aplomb_framework::math::hypot;
 use aplomb_framework::sensing::Sensors;
 
 /// Servos of all joints.
@@ -60,7 +61,7 @@ fn stable_damping(model: &Model) -> Vec<f64> {
         sums[joint.parent] += joint.kd;
         let apart = |link: usize, anchor: [f64; 2]| {
             let com = model.links[link].com;
-            (com[0] - anchor[0]).hypot(com[1] - anchor[1])
+            hypot(com[0] - anchor[0], com[1] - anchor[1])
         };
         levers[child] = f64::min(levers[child], apart(child, [0.0; 2]));
         levers[joint.parent] = f64::min(levers[joint.parent], apart(joint.parent, joint.anchor));

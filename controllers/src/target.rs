@@ -2,9 +2,10 @@
 //! for `hip_r` and `hip_l`.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 use aplomb_framework::character::Model;
-use aplomb_framework::input::{Error, Result};
+use aplomb_framework::input::{Error, FieldPath, Result, check};
 
 /// Target angles by joint name or stem, rad.
 pub type NamedAngles = BTreeMap<String, f64>;
@@ -29,24 +30,36 @@ pub fn joints_named(model: &Model, name: &str) -> Result<Vec<usize>> {
     }
 }
 
-/// Writes the named values over `all`, one a joint; names of single joints win over stems.
+/// The largest angle of a target, rad.
+const LARGEST_ANGLE: f64 = 7.0;
+
+/// Writes the named angles over `all`, one a joint; names of single joints win over stems.
 ///
 /// # Errors
-/// An unknown joint, or a value outside `accepted`.
-pub fn overlay(
+/// An unknown joint, or an angle of more than 7 rad either way, by its name.
+pub fn overlay(model: &Model, named: &NamedAngles, all: &mut [f64]) -> Result<()> {
+    overlay_within(model, named, -LARGEST_ANGLE..=LARGEST_ANGLE, all)
+}
+
+/// The same for other values than angles, which are to lie within `accepted`.
+///
+/// # Errors
+/// An unknown joint, or a value that is not accepted, by its name.
+pub fn overlay_within(
     model: &Model,
     named: &NamedAngles,
-    field: &str,
-    accepted: [f64; 2],
+    accepted: RangeInclusive<f64>,
     all: &mut [f64],
 ) -> Result<()> {
     for single in [false, true] {
         for (name, value) in named {
-            let joints = joints_named(model, name)?;
+            let joints = joints_named(model, name);
+            let joints = joints.map_err(|e| e.inside(FieldPath::name(name)))?;
             if (joints.len() == 1) != single {
                 continue;
             }
-            bounded(field, name, *value, accepted[0], accepted[1])?;
+            let of = |e: Error| e.inside(FieldPath::entry(name));
+            check::within("", *value, accepted.clone()).map_err(of)?;
             for joint in joints {
                 all[joint] = *value;
             }
@@ -63,18 +76,6 @@ pub fn mirrored(model: &Model, pose: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// A number of a spec that must lie between bounds.
-///
-/// # Errors
-/// [`Error::Invalid`] with the field and the bounds.
-pub fn bounded(place: &str, field: &str, value: f64, low: f64, high: f64) -> Result<()> {
-    if value >= low && value <= high {
-        return Ok(());
-    }
-    let accepted = format!("{low} to {high}");
-    Err(Error::invalid(place, field, value, accepted))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -89,7 +90,7 @@ mod tests {
         ]
         .into();
         let mut pose = vec![0.0; 12];
-        overlay(&model, &named, "pose", [-7.0, 7.0], &mut pose).unwrap();
+        overlay(&model, &named, &mut pose).unwrap();
         let at = |n| pose[model.joint_index(n).unwrap()];
         assert_eq!(
             (at("hip_r"), at("hip_l"), at("waist"), at("knee_r")),
@@ -105,9 +106,7 @@ mod tests {
         let mut pose = vec![0.0; 12];
         let mut refusal = |name: &str, value| {
             let named = [(name.to_owned(), value)].into();
-            overlay(&model, &named, "pose", [-7.0, 7.0], &mut pose)
-                .unwrap_err()
-                .to_string()
+            overlay(&model, &named, &mut pose).unwrap_err().to_string()
         };
         assert!(
             refusal("hipp", 0.1).contains("did you mean 'hip_"),

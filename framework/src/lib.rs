@@ -15,6 +15,7 @@
 //!
 //! | folder | data in → data out |
 //! |---|---|
+//! | [`math`] | numbers → numbers, with the same bits everywhere |
 //! | [`input`] | path → text, or an error with its place |
 //! | [`events`] | what happens in a run |
 //! | [`character`] | character file → model; state → kinematics, dynamics |
@@ -24,10 +25,19 @@
 //! | [`scenario`] | scenario file → who takes part, what is done, what is expected |
 //! | [`run`] | scenario → simulation → events, recording |
 
+#![cfg_attr(
+    test,
+    allow(
+        clippy::disallowed_methods,
+        reason = "tests compare with the standard library's functions"
+    )
+)]
+
 pub mod character;
 pub mod control;
 pub mod events;
 pub mod input;
+pub mod math;
 pub mod prelude;
 pub mod run;
 pub mod scenario;

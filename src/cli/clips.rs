@@ -11,9 +11,10 @@ use aplomb::training::anticipation::objective::Judged;
 use clap::Args;
 use serde::Serialize;
 
+use super::arguments::{ClipSettings, Json, Seed};
 use super::output::write_json;
 use super::scene::set_all;
-use super::values::{Setting, whole};
+use super::values::Setting;
 use super::{Verdict, work};
 
 /// List the clips, and measure them without and with anticipation
@@ -26,28 +27,24 @@ use super::{Verdict, work};
 #[command(after_help = "\
 Examples:
   aplomb clips
-  aplomb clips fast_bend --set duration=0.5 --json")]
+  aplomb clips bend --set duration=0.5 --json")]
 pub(super) struct ClipsArgs {
-    /// Shipped clips (fast_bend for the scenario clips/fast_bend) or scenario files; all shipped ones
+    /// Shipped clips (bend for the scenario clips/bend) or scenario files; all shipped ones
     /// if left out
     clips: Vec<String>,
-    /// Sets a parameter of the clips; repeatable
-    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
-    set: Vec<Setting>,
-    /// Fixes the starts
-    #[arg(long, value_name = "N", default_value = "0",
-          value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
-    seed: u64,
+    #[command(flatten)]
+    settings: ClipSettings,
+    #[command(flatten)]
+    seed: Seed,
     #[command(flatten)]
     jobs: work::Jobs,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// One clip. Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-struct Row {
+pub(super) struct Row {
     clip: String,
     character: String,
     parameters: BTreeMap<String, f64>,
@@ -62,23 +59,24 @@ struct Row {
 
 impl ClipsArgs {
     pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
-        let names: Vec<String> = if self.clips.is_empty() {
-            aplomb::scenarios::clips().map(str::to_owned).collect()
-        } else {
-            self.clips.clone()
-        };
-        let threads = self.jobs.threads()?;
-        let row = |name: &String| {
-            let clip = load(name, &self.set, None)?;
-            threads.install(|| Row::new(&clip, self.seed))
-        };
-        let rows = names.iter().map(row).collect::<Result<Vec<Row>>>()?;
-        if self.json {
+        let rows = self.jobs.threads()?.install(|| self.measure())?;
+        if self.json.wanted {
             write_json(out, &rows)?;
         } else {
             print(out, &rows)?;
         }
         Ok(Verdict::Done)
+    }
+
+    /// What `--json` prints; it is measured in the threads of the caller.
+    pub(super) fn measure(&self) -> Result<Vec<Row>> {
+        let names: Vec<String> = if self.clips.is_empty() {
+            aplomb::scenarios::clips().map(str::to_owned).collect()
+        } else {
+            self.clips.clone()
+        };
+        let row = |name: &String| Row::new(&load(name, &self.settings.set, None)?, self.seed.value);
+        names.iter().map(row).collect()
     }
 }
 

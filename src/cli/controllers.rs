@@ -11,6 +11,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::Verdict;
+use super::arguments::Json;
 use super::output::write_json;
 use super::scene::CastArgs;
 
@@ -31,9 +32,8 @@ pub(super) struct ControllersArgs {
     /// Lists the features that conditions can speak of, instead of the controllers
     #[arg(long)]
     features: bool,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// A word of the conditions' vocabulary.
@@ -65,7 +65,7 @@ struct Row {
 impl ControllersArgs {
     pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
         if self.features {
-            return list_features(out, self.json);
+            return list_features(out, self.json.wanted);
         }
         let registry = aplomb::controllers::registry();
         let scenario = self.cast.apply(None, 1.0, &registry)?;
@@ -80,7 +80,7 @@ impl ControllersArgs {
             .collect();
         let pool = simulation.actors()[0].supervisor.controllers();
         let rows: Vec<Row> = pool.map(|c| row(c.contract(), &kinds)).collect();
-        if self.json {
+        if self.json.wanted {
             write_json(out, &rows)?;
         } else {
             print(out, &rows)?;

@@ -2,13 +2,16 @@
 //!
 //! arguments → subcommand → results on stdout, progress and messages on stderr, exit code.
 
+mod arguments;
 mod clips;
 mod compare;
 mod controllers;
+mod export;
 mod json;
 mod output;
 mod progress;
 mod render;
+mod reproduce;
 mod robustness;
 mod run;
 mod scene;
@@ -60,6 +63,8 @@ enum Command {
     Compare(compare::CompareArgs),
     Robustness(robustness::RobustnessArgs),
     Render(render::RenderArgs),
+    Export(export::ExportArgs),
+    Reproduce(reproduce::ReproduceArgs),
 }
 
 /// What a finished subcommand tells the shell.
@@ -86,6 +91,8 @@ impl Cli {
             Some(Command::Compare(args)) => args.run(out),
             Some(Command::Robustness(args)) => args.run(out),
             Some(Command::Render(args)) => args.run(out),
+            Some(Command::Export(args)) => args.run(out),
+            Some(Command::Reproduce(args)) => args.run(out),
         }
     }
 }
@@ -126,7 +133,7 @@ mod tests {
     fn the_help_of_run_names_every_shipped_scenario() {
         let mut cli = Cli::command();
         let help = cli.find_subcommand_mut("run").unwrap().render_long_help();
-        for (name, _) in aplomb::scenarios::SHIPPED {
+        for (name, _) in aplomb::scenarios::shipped() {
             let name = name.split('/').next().unwrap_or(name);
             assert!(help.to_string().contains(name), "{name}");
         }

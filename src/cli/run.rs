@@ -9,6 +9,7 @@ use aplomb::framework::run::Simulation;
 use aplomb::framework::scenario::Scenario;
 use clap::Args;
 
+use super::arguments::{Json, Record};
 use super::json::RunJson;
 use super::output::{check_picture, check_writable, message, write_json, write_recording};
 use super::scene::{SceneArgs, record};
@@ -38,33 +39,46 @@ pub(super) struct RunArgs {
     /// Gives the first character a command at T s; repeatable
     #[arg(long, value_name = "T:STRING", allow_hyphen_values = true)]
     command: Vec<TimedCommand>,
-    /// Records every step into a trajectory file
-    #[arg(long, value_name = "FILE")]
-    record: Option<PathBuf>,
+    #[command(flatten)]
+    record: Record,
     /// Draws the run: film strip (.svg, .png) or animation (.gif, .mp4)
     #[arg(long, value_name = "FILE")]
     render: Option<PathBuf>,
     /// Tells who bid what at each switch, and which clause refused
     #[arg(long)]
     explain: bool,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: Json,
 }
 
 impl RunArgs {
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    /// What `--json` prints, without recording.
+    pub(super) fn measure(&self) -> Result<RunJson> {
+        let (scenario, mut simulation) = self.begin()?;
+        let begun = Instant::now();
+        simulation.run(scenario.duration);
+        let wall_s = begun.elapsed().as_secs_f64();
+        Ok(RunJson::new(&simulation, &scenario, wall_s, self.explain))
+    }
+
+    /// The scenario with all that the options ask for, and its run at its beginning.
+    fn begin(&self) -> Result<(Scenario, Simulation)> {
         let registry = aplomb::controllers::registry();
         let mut scenario = self.scene.load(10.0, &registry)?;
         if let Some(duration) = self.duration {
             scenario.duration = duration;
         }
-        self.record.as_deref().map_or(Ok(()), check_writable)?;
-        self.render.as_deref().map_or(Ok(()), check_picture)?;
         let mut simulation = Simulation::new(&scenario, &registry)?;
         schedule(&mut simulation, &scenario, &self.push)?;
         schedule(&mut simulation, &scenario, &self.command)?;
-        if self.record.is_some() || self.render.is_some() {
+        Ok((scenario, simulation))
+    }
+
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        let (scenario, mut simulation) = self.begin()?;
+        self.record.file.as_deref().map_or(Ok(()), check_writable)?;
+        self.render.as_deref().map_or(Ok(()), check_picture)?;
+        if self.record.file.is_some() || self.render.is_some() {
             record(&mut simulation, &scenario)?;
         }
 
@@ -74,7 +88,7 @@ impl RunArgs {
 
         // Told once the files are written: a reader that leaves early does not lose them.
         let mut told = Vec::new();
-        if self.json {
+        if self.json.wanted {
             let json = RunJson::new(&simulation, &scenario, wall_s, self.explain);
             write_json(&mut told, &json)?;
         } else {
@@ -82,7 +96,7 @@ impl RunArgs {
         }
         let unmet = simulation.unmet(&scenario.expect);
         if let Some(recording) = simulation.into_recording() {
-            let (record, render) = (self.record.as_deref(), self.render.as_deref());
+            let (record, render) = (self.record.file.as_deref(), self.render.as_deref());
             write_recording(&recording, record, render)?;
         }
         out.write_all(&told)?;

@@ -35,7 +35,7 @@ pub(super) struct SceneArgs {
 }
 
 /// Who takes part.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(super) struct CastArgs {
     /// The first character: built-in name or character file
     #[arg(long, value_name = "NAME|FILE")]
@@ -79,8 +79,27 @@ impl CastArgs {
         if self.repertoire.is_some() {
             first.repertoire.clone_from(&self.repertoire);
         }
-        for role in &scenario.characters {
-            check_repertoire(role, registry)?;
+        for (i, role) in scenario.characters.iter().enumerate() {
+            // What an argument has put there stands nowhere in the scenario's file.
+            let told = |field, by_argument: bool, e: Error| {
+                if (i == 0 && by_argument) || scenario.origin.is_nowhere() {
+                    return e;
+                }
+                scenario.locate(e.inside(field).inside(("characters", i)))
+            };
+            let model = Model::load(&role.character);
+            let model = model.map_err(|e| told("character", self.character.is_some(), e))?;
+            let unknown = unknown_repertoire(role, &model, registry);
+            if let Some(unknown) = unknown {
+                let by_argument = self.repertoire.is_some();
+                match &role.repertoire {
+                    Some(_) => bail!(told("repertoire", by_argument, unknown)),
+                    None => bail!(
+                        "character '{}' has no repertoire of its own, name one: {unknown}",
+                        model.name
+                    ),
+                }
+            }
         }
         Ok(scenario)
     }
@@ -95,23 +114,18 @@ pub(super) fn set_all(scenario: &mut Scenario, settings: &[Setting]) -> Result<(
     Ok(())
 }
 
-/// Says what is known when a repertoire is neither shipped nor a file.
-fn check_repertoire(role: &Participant, registry: &Registry) -> Result<()> {
-    let model = Model::load(&role.character)?;
-    let name = role.repertoire(&model);
+/// What is known when a repertoire is neither shipped nor a file.
+fn unknown_repertoire(role: &Participant, model: &Model, registry: &Registry) -> Option<Error> {
+    let name = role.repertoire(model);
     let shipped = registry.file(&format!("repertoires/{name}.ron"));
     if shipped.is_some() || Path::new(name).exists() {
-        return Ok(());
+        return None;
     }
     let known = registry.files().filter_map(|f| {
         let file = f.strip_prefix("repertoires/")?;
         file.strip_suffix(".ron")
     });
-    let unknown = Error::unknown("repertoire", name, known);
-    if role.repertoire.is_none() {
-        bail!("character '{name}' has no repertoire of its own, name one: {unknown}");
-    }
-    bail!(unknown)
+    Some(Error::unknown("repertoire", name, known))
 }
 
 /// Begins to record, unless the whole run would not fit into memory.

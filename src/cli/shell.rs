@@ -3,7 +3,6 @@
 //! lines of stdin → supervisor, pushes, time → events on stdout.
 
 use std::io::{self, BufRead, IsTerminal, Read, Write};
-use std::path::PathBuf;
 
 use anyhow::{Result, anyhow, bail, ensure};
 use aplomb::framework::input::shortened;
@@ -11,6 +10,7 @@ use aplomb::framework::run::Simulation;
 use aplomb::framework::scenario::LONGEST_RUN;
 use clap::Args;
 
+use super::arguments::Record;
 use super::controllers::usage;
 use super::output::{check_writable, message};
 use super::scene::{SceneArgs, record};
@@ -43,9 +43,8 @@ Example: printf 'wait 1\\npush torso -120\\nwait 3\\nstate\\n' | aplomb shell")]
 pub(super) struct ShellArgs {
     #[command(flatten)]
     scene: SceneArgs,
-    /// Records every step into a trajectory file
-    #[arg(long, value_name = "FILE")]
-    record: Option<PathBuf>,
+    #[command(flatten)]
+    record: Record,
 }
 
 impl ShellArgs {
@@ -53,9 +52,9 @@ impl ShellArgs {
         let registry = aplomb::controllers::registry();
         let mut scenario = self.scene.load(LONGEST_RUN, &registry)?;
         scenario.duration = LONGEST_RUN;
-        self.record.as_deref().map_or(Ok(()), check_writable)?;
+        self.record.file.as_deref().map_or(Ok(()), check_writable)?;
         let mut simulation = Simulation::new(&scenario, &registry)?;
-        if self.record.is_some() {
+        if self.record.file.is_some() {
             record(&mut simulation, &scenario)?;
         }
         let stdin = io::stdin();
@@ -63,7 +62,8 @@ impl ShellArgs {
         let told = 0;
         let mut shell = Shell { simulation, told };
         let bad = shell.converse(&mut stdin.lock(), out, person)?;
-        if let (Some(path), Some(recording)) = (self.record, shell.simulation.into_recording()) {
+        if let (Some(path), Some(recording)) = (self.record.file, shell.simulation.into_recording())
+        {
             recording.write(&path)?;
             message(format_args!("recorded in {}", path.display()));
         }

@@ -1,6 +1,6 @@
 //! What sums up numbers of many trials or tests.
 //!
-//! values → median, 90th percentile, largest; hits of so many → interval of the share.
+//! values → median, percentiles; hits of so many → interval of the share.
 
 /// In ascending order.
 pub(super) fn sorted(values: &[f64]) -> Vec<f64> {
@@ -20,9 +20,9 @@ pub(super) fn median(values: &[f64]) -> Option<f64> {
     }
 }
 
-/// The smallest value that nine tenths of all do not exceed.
-pub(super) fn percentile90(values: &[f64]) -> Option<f64> {
-    let rank = (9 * values.len()).div_ceil(10);
+/// The smallest value that so many of a hundred do not exceed.
+pub(super) fn percentile(values: &[f64], percent: usize) -> Option<f64> {
+    let rank = (percent * values.len()).div_ceil(100);
     Some(sorted(values)[rank.checked_sub(1)?])
 }
 
@@ -67,12 +67,13 @@ mod tests {
     }
 
     #[test]
-    fn nine_of_ten_do_not_exceed_the_90th_percentile() {
-        assert_eq!(percentile90(&[]), None);
-        assert_eq!(percentile90(&[7.0]), Some(7.0));
+    fn so_many_of_a_hundred_do_not_exceed_the_percentile() {
+        assert_eq!(percentile(&[], 90), None);
+        assert_eq!(percentile(&[7.0], 90), Some(7.0));
         let ten: Vec<f64> = (1..=10).rev().map(f64::from).collect();
-        assert_eq!(percentile90(&ten), Some(9.0));
+        assert_eq!(percentile(&ten, 90), Some(9.0));
+        assert_eq!(percentile(&ten, 95), Some(10.0));
         let eleven: Vec<f64> = (1..=11).map(f64::from).collect();
-        assert_eq!(percentile90(&eleven), Some(10.0));
+        assert_eq!(percentile(&eleven, 90), Some(10.0));
     }
 }

@@ -196,7 +196,7 @@ fn bad_clips_end_in_clear_errors() {
     let mut calls: Vec<Vec<&str>> = calls.iter().map(|c| vec!["train", "cmrt", c]).collect();
     calls.push(vec!["train", "cmrt", "silent.ron"]);
     calls.push(vec!["train", "cmrt", "other.ron"]);
-    calls.push(vec!["train", "cmrt", "fast_bned"]);
+    calls.push(vec!["train", "cmrt", "bned"]);
     calls.push(vec!["train", "cmrt", "dip_clip.ron", "--set", "duration=9"]);
     calls.push(vec!["train", "cmrt", "dip_clip.ron", "--set", "mass=-1"]);
     calls.push(vec!["train", "cmrt", "dip_clip.ron", "--knots", "9"]);

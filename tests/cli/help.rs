@@ -44,6 +44,16 @@ fn render() {
 }
 
 #[test]
+fn export() {
+    insta::assert_snapshot!(help("export --help"));
+}
+
+#[test]
+fn reproduce() {
+    insta::assert_snapshot!(help("reproduce --help"));
+}
+
+#[test]
 fn the_version_is_the_packages() {
     assert_eq!(
         help("--version"),

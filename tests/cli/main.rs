@@ -2,15 +2,23 @@
 //! stderr out.
 
 #![allow(clippy::unwrap_used)]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the standard library's functions"
+)]
 
 mod bad_files;
 mod bad_usage;
+mod bad_values;
 mod cmrt;
 mod compare;
+mod export;
 mod figures;
 mod help;
+mod numbers;
 mod output;
 mod preconditions;
+mod reproduce;
 mod run;
 mod shell;
 mod train;
@@ -19,6 +27,7 @@ mod trials;
 use std::path::Path;
 
 use assert_cmd::Command;
+use numbers::assert_within;
 use serde_json::Value;
 
 /// The program, with everything that could change its words taken away.

@@ -152,7 +152,7 @@ fn sets_and_distributions_that_teach_nothing_are_refused() {
     let nowhere = nowhere.replace("trunk_rate", "com_offset");
     refused(&nowhere, few, "com_offset");
     let link = PUSHES.replace("pelvis", "tail");
-    refused(&link, few, "link is 'tail'");
+    refused(&link, few, "force.links[0] is 'tail'");
     refused(&PUSHES.replace("most: 600.0", "most: inf"), few, "most");
     refused(&PUSHES.replace("(0.05, 0.2)", "(0.2, 0.05)"), few, "time");
     refused(&PUSHES.replace("[Servos]", "[]"), few, "during");

@@ -3,7 +3,7 @@
 use predicates::prelude::*;
 use serde_json::{Value, json as value};
 
-use crate::{called, json, scenario};
+use crate::{assert_within, called, json, scenario};
 
 fn kinds(run: &Value) -> Vec<&str> {
     let events = run["events"].as_array().unwrap();
@@ -36,14 +36,20 @@ fn the_story_is_told_drawn_and_recorded() {
 #[test]
 fn a_run_is_told_as_json() {
     let run = json("run --duration 2 --push 0.5:torso:-10 --command 0.2:rest --seed 7");
-    for key in ["digest", "wall_s", "peak_torque"] {
-        assert!(!run[key].is_null(), "{key}");
-    }
+    let digest = run["digest"].as_str().unwrap();
+    assert!(digest.len() == 32 && u128::from_str_radix(digest, 16).is_ok());
     assert_eq!(run["scenario"], "standing");
     assert_eq!(run["character"], "humanoid");
     assert_eq!((&run["seed"], &run["dt"]), (&value!(7), &value!(0.001)));
     assert_eq!(run["duration"], 2.0);
-    assert!(run["peak_torque"]["hip_r"].as_f64().unwrap() > 0.0);
+    // Every joint works, none beyond what its muscles can.
+    let model = aplomb::framework::character::Model::load("humanoid").unwrap();
+    let peaks = run["peak_torque"].as_object().unwrap();
+    assert_eq!(peaks.len(), model.joint_count());
+    for joint in model.joints() {
+        let most = joint.torque * (1.0 + 1e-9);
+        assert_within(&run["peak_torque"], &[(&joint.name, 1e-3, most)]);
+    }
     let events = run["events"].as_array().unwrap();
     let push = value!({"t": 0.5, "kind": "push", "link": "torso", "impulse": -10.0});
     let start = value!({"t": 0.0, "kind": "switch", "from": null, "to": "balance", "role": "balance", "why": "start"});
@@ -54,10 +60,24 @@ fn a_run_is_told_as_json() {
     let called = |e: &Value| e["from"] == "balance" && e["to"] == "rest" && e["why"] == "command";
     assert!(events.iter().any(called));
     let end = &run["end"];
-    assert!(end["standing"].is_boolean() && end["active"].is_string());
-    assert!(end["posture"].is_string());
+    assert_eq!(
+        (&end["standing"], &end["posture"]),
+        (&value!(true), &value!("standing"))
+    );
+    assert_eq!(end["active"], "balance");
     assert_eq!(end["com"].as_array().unwrap().len(), 2);
     assert_eq!(end["com_velocity"].as_array().unwrap().len(), 2);
+    // At rest over its feet, a good half of its 1.8 m up.
+    assert_within(
+        &run,
+        &[
+            ("wall_s", 1e-3, 600.0),
+            ("end.com.0", -0.1, 0.2),
+            ("end.com.1", 0.9, 1.1),
+            ("end.com_velocity.0", -0.1, 0.1),
+            ("end.com_velocity.1", -0.1, 0.1),
+        ],
+    );
 }
 
 #[test]
@@ -66,7 +86,11 @@ fn a_refused_command_names_the_clause_and_the_value() {
     let events = run["events"].as_array().unwrap();
     let refused = events.iter().find(|e| e["kind"] == "refused").unwrap();
     assert_eq!(refused["controller"], "balance");
-    assert!(refused["clause"].is_string());
+    let (clause, posture) = (refused["clause"].as_str().unwrap(), &run["end"]["posture"]);
+    assert!(clause.starts_with("posture standing (is "), "{clause}");
+    assert_ne!(posture, "standing");
+    // A posture is no number.
+    assert_eq!(refused["value"], Value::Null);
     assert!(kinds(&run).contains(&"fell"));
     let given = value!({"t": 2.2, "kind": "command", "text": "balance", "accepted": false});
     assert!(events.contains(&given));
@@ -94,8 +118,8 @@ fn an_expectation_that_is_not_met_is_exit_code_1() {
         .code(1)
         .stderr("expectation not met: character 0 does not stand at the end\n");
     let run = json(&format!("run {}", scenario("unmet.ron")));
-    assert!(run["unmet"].is_string());
-    assert!(json("run standing --duration 2")["unmet"].is_null());
+    assert_eq!(run["unmet"], "character 0 does not stand at the end");
+    assert_eq!(json("run standing --duration 2")["unmet"], Value::Null);
 }
 
 #[test]
@@ -107,7 +131,9 @@ fn several_characters_have_an_end_each() {
     let push =
         value!({"t": 0.4, "kind": "push", "link": "pelvis", "impulse": -10.0, "character": 1});
     assert!(events.contains(&push));
-    assert!(events.iter().all(|e| e["character"].is_u64()));
+    let of = |who: u32| events.iter().filter(|e| e["character"] == who).count();
+    assert!(of(0) > 0 && of(1) > 0);
+    assert_eq!(of(0) + of(1), events.len());
     called("run")
         .arg(scenario("two.ron"))
         .assert()

@@ -13,6 +13,14 @@
 //! | [`preconditions`] | rollouts → dataset → support vector machine → boundary file, report |
 //! | [`anticipation`] | clip → CMA-ES or basis → reference trajectories of the centre of mass |
 
+#![cfg_attr(
+    test,
+    allow(
+        clippy::disallowed_methods,
+        reason = "tests compare with the standard library's functions"
+    )
+)]
+
 pub mod anticipation;
 pub mod exercise;
 pub mod preconditions;

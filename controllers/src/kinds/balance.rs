@@ -11,12 +11,12 @@ use std::sync::Arc;
 
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Contract, Controller, Spec};
-use aplomb_framework::input::Result;
+use aplomb_framework::input::{Result, check};
 use aplomb_framework::sensing::Sensors;
 use serde::{Deserialize, Serialize};
 
 use crate::momentum::{Formulation, GLIDE, Gains, Upright, glided};
-use crate::target::{NamedAngles, bounded};
+use crate::target::NamedAngles;
 
 /// Parameters of [`Balance`] in a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -60,20 +60,19 @@ pub struct Balance {
 }
 
 impl BalanceSpec {
-    /// Momentum control with its gains and pose; `place` names the controller in messages.
+    /// Momentum control with its gains and pose.
     ///
     /// # Errors
     /// Numbers out of bounds, unknown joints.
-    pub(crate) fn upright(&self, place: &str, model: &Arc<Model>) -> Result<Upright> {
+    pub(crate) fn upright(&self, model: &Arc<Model>) -> Result<Upright> {
         let upright = Upright::new(
-            place,
             model,
             self.formulation,
             self.gains.clone(),
             &self.pose,
             &self.joint_weights,
         )?;
-        bounded(place, "com_ahead", self.com_ahead, -0.2, 0.2)?;
+        check::within("com_ahead", self.com_ahead, -0.2..=0.2)?;
         Ok(upright)
     }
 }
@@ -82,9 +81,8 @@ impl Spec for BalanceSpec {
     const KIND: &'static str = "balance";
 
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
-        let place = contract.name.clone();
-        let upright = self.upright(&place, model)?;
-        bounded(&place, "climb", self.climb.unwrap_or(1.0), 0.01, 10.0)?;
+        let upright = self.upright(model)?;
+        check::within("climb", self.climb.unwrap_or(1.0), 0.01..=10.0)?;
         Ok(Box::new(Balance {
             upright,
             com_ahead: self.com_ahead,

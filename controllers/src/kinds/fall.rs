@@ -15,12 +15,12 @@ use std::sync::Arc;
 
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Contract, Controller, Spec};
-use aplomb_framework::input::Result;
+use aplomb_framework::input::{Error, Result, check};
 use aplomb_framework::sensing::Sensors;
 use serde::{Deserialize, Serialize};
 
 use crate::servo::{Servo, smoothstep};
-use crate::target::{NamedAngles, bounded, overlay};
+use crate::target::{NamedAngles, overlay};
 
 /// s after the landing for which the limbs hold before they lower what is still up.
 const HOLDS: f64 = 0.6;
@@ -109,32 +109,46 @@ pub struct Fall {
     phase: usize,
 }
 
+impl Way {
+    fn poses(&self, model: &Model) -> Result<Poses> {
+        check::within("reach_stiffness", self.reach_stiffness, 0.0..=3.0)?;
+        check::within("give_stiffness", self.give_stiffness, 0.0..=3.0)?;
+        check::within("ramp", self.ramp, 0.0..=5.0)?;
+        check::within("lower", self.lower, 0.0..=10.0)?;
+        let pose = |field: &str, named: &NamedAngles| {
+            let mut all = vec![0.0; model.joint_count()];
+            let named = overlay(model, named, &mut all);
+            named.map(|()| all).map_err(|e| e.inside(field))
+        };
+        Ok(Poses {
+            pose: [
+                pose("reach", &self.reach)?,
+                pose("give", &self.give)?,
+                pose("lie", &self.lie)?,
+            ],
+            stiffness: [
+                self.reach_stiffness,
+                self.give_stiffness,
+                self.give_stiffness,
+            ],
+            ramp: [self.ramp, self.ramp, self.lower],
+        })
+    }
+}
+
 impl Spec for FallSpec {
     const KIND: &'static str = "fall";
 
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
-        bounded(&contract.name, "damping", self.damping, 0.0, 1.0)?;
-        let poses = |name: &str, way: &Way| {
-            let pose = |named: &NamedAngles| {
-                let mut all = vec![0.0; model.joint_count()];
-                overlay(model, named, name, [-7.0, 7.0], &mut all).map(|()| all)
-            };
-            bounded(name, "reach_stiffness", way.reach_stiffness, 0.0, 3.0)?;
-            bounded(name, "give_stiffness", way.give_stiffness, 0.0, 3.0)?;
-            bounded(name, "ramp", way.ramp, 0.0, 5.0)?;
-            bounded(name, "lower", way.lower, 0.0, 10.0)?;
-            Ok::<_, aplomb_framework::Error>(Poses {
-                pose: [pose(&way.reach)?, pose(&way.give)?, pose(&way.lie)?],
-                stiffness: [way.reach_stiffness, way.give_stiffness, way.give_stiffness],
-                ramp: [way.ramp, way.ramp, way.lower],
-            })
-        };
+        check::within("damping", self.damping, 0.0..=1.0)?;
         let over = self.over.as_ref().map(|over| {
-            bounded("over", "beyond", over.beyond, 0.0, 7.0)?;
-            Ok::<_, aplomb_framework::Error>((over.beyond, poses("over", &over.way)?))
+            check::within("beyond", over.beyond, 0.0..=7.0)?;
+            let poses = over.way.poses(model).map_err(|e| e.inside("way"))?;
+            Ok::<_, Error>((over.beyond, poses))
         });
+        let poses = |field: &str, way: &Way| way.poses(model).map_err(|e| e.inside(field));
         Ok(Box::new(Fall {
-            over: over.transpose()?,
+            over: over.transpose().map_err(|e| e.inside("over"))?,
             forward: poses("forward", &self.forward)?,
             backward: poses("backward", &self.backward)?,
             servo: Servo::new(model, 1.0, self.damping),

@@ -5,17 +5,21 @@
 //! targets (continuous control). Fails as its contract says, when a state ends short of what it
 //! expects, or when the last pose does not bring the post-condition about within a second.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Condition, Contract, Controller, Progress, Spec};
 use aplomb_framework::events::Unmet;
-use aplomb_framework::input::Result;
+use aplomb_framework::input::{Error, Result, check};
 use aplomb_framework::sensing::{Feature, Sensors};
 use serde::{Deserialize, Serialize};
 
 use crate::servo::{Servo, smoothstep};
-use crate::target::{NamedAngles, bounded, joints_named, mirrored, overlay};
+use crate::target::{NamedAngles, joints_named, mirrored, overlay};
+
+/// What `next` and `then` call the end of the machine.
+pub const END: &str = "end";
 
 /// At most this many states.
 pub const MOST_STATES: usize = 64;
@@ -27,6 +31,9 @@ const GRACE: f64 = 1.0;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PoseState {
+    /// What other states call it; none by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
     /// Target angles, rad; joints that are not named keep the last state's.
     #[serde(default)]
     pub pose: NamedAngles,
@@ -44,13 +51,12 @@ pub struct PoseState {
     /// Stiffness relative to the nominal servos.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub stiffness: f64,
-    /// The state that follows when the time is up, from 0; the next one if left out. The number of
-    /// states is the end.
+    /// Name of the state that follows when the time is up, or `end`; the next one if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub next: Option<usize>,
-    /// The state that follows when `until` ends this one; as `next` if left out.
+    pub next: Option<String>,
+    /// Name of the state that follows when `until` ends this one; as `next` if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub then: Option<usize>,
+    pub then: Option<String>,
 }
 
 fn most() -> f64 {
@@ -93,6 +99,9 @@ pub struct Feedback {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PoseSpec {
+    /// Conditions that states refer to by name: `until: Named("squatting")`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub conditions: BTreeMap<String, Condition>,
     /// The machine; it begins with the first.
     pub states: Vec<PoseState>,
     /// Rules that act in all states.
@@ -114,6 +123,8 @@ pub struct PoseSpec {
 
 #[derive(Debug, Clone)]
 struct Key {
+    /// For messages: the state's name in quotes, or its place.
+    name: String,
     pose: Vec<f64>,
     duration: f64,
     ease: f64,
@@ -149,54 +160,34 @@ impl Spec for PoseSpec {
     const KIND: &'static str = "pose";
 
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
-        let place = contract.name.clone();
-        bounded(
-            &place,
-            "states",
-            self.states.len() as f64,
-            1.0,
-            MOST_STATES as f64,
-        )?;
-        bounded(&place, "damping", self.damping, 0.0, 1.0)?;
+        let count = self.states.len();
+        check::count("states", count, 1..=MOST_STATES, "states")?;
+        check::within("damping", self.damping, 0.0..=1.0)?;
+        self.check_names()?;
         let joints = model.joint_count();
         let mut pose = vec![0.0; joints];
-        let mut keys = Vec::with_capacity(self.states.len());
+        let mut keys = Vec::with_capacity(count);
         for (i, state) in self.states.iter().enumerate() {
-            let at = format!("{place}: states[{i}]");
-            overlay(model, &state.pose, &at, [-7.0, 7.0], &mut pose)?;
-            bounded(&at, "duration", state.duration, 0.0, 3600.0)?;
-            bounded(&at, "ease", state.ease, 0.0, 1.0)?;
-            bounded(&at, "stiffness", state.stiffness, 0.0, 3.0)?;
-            let next = state.next.unwrap_or(i + 1);
-            let then = state.then.unwrap_or(next);
-            let most = self.states.len() as f64;
-            bounded(&at, "next", next as f64, 0.0, most)?;
-            bounded(&at, "then", then as f64, 0.0, most)?;
-            let mut until = state.until.clone();
-            until.resolve(model)?;
-            let mut expects = state.expects.clone();
-            expects.resolve(model)?;
-            keys.push(Key {
-                pose: if self.mirror {
-                    mirrored(model, &pose)
-                } else {
-                    pose.clone()
-                },
-                duration: state.duration,
-                ease: state.ease,
-                until,
-                expects,
-                stiffness: state.stiffness,
-                next,
-                then,
-            });
+            let of = |e: Error| e.inside(("states", i));
+            let posed = overlay(model, &state.pose, &mut pose);
+            posed.map_err(|e| of(e.inside("pose")))?;
+            let mut key = self.key(i, state, model).map_err(of)?;
+            key.pose = if self.mirror {
+                mirrored(model, &pose)
+            } else {
+                pose.clone()
+            };
+            keys.push(key);
         }
         let mut feedback = Vec::new();
-        for rule in &self.feedback {
-            bounded(&place, "feedback.gain", rule.gain, -100.0, 100.0)?;
+        for (i, rule) in self.feedback.iter().enumerate() {
+            let of = |e: Error| e.inside(("feedback", i));
+            check::within("gain", rule.gain, -100.0..=100.0).map_err(of)?;
             let mut feature = rule.feature.clone();
-            feature.resolve(model)?;
-            for joint in joints_named(model, &rule.joint)? {
+            let named = feature.resolve(model);
+            named.map_err(|e| of(e.inside("feature")))?;
+            let named = joints_named(model, &rule.joint);
+            for joint in named.map_err(|e| of(e.inside("joint")))? {
                 let joint = if self.mirror {
                     model.mirrored_joint(joint)
                 } else {
@@ -205,7 +196,8 @@ impl Spec for PoseSpec {
                 feedback.push((joint, feature.clone(), rule.gain));
             }
         }
-        contract.check_parameters(self.scaled_by.iter().chain(&self.slowed_by), &place)?;
+        contract.check_parameter("scaled_by", self.scaled_by.as_ref())?;
+        contract.check_parameter("slowed_by", self.slowed_by.as_ref())?;
         Ok(Box::new(PoseController {
             servo: Servo::new(model, 1.0, self.damping),
             scale: 1.0,
@@ -222,6 +214,69 @@ impl Spec for PoseSpec {
             missed: None,
             contract,
         }))
+    }
+}
+
+impl PoseSpec {
+    /// A state, still without its pose.
+    fn key(&self, i: usize, state: &PoseState, model: &Model) -> Result<Key> {
+        check::within("duration", state.duration, 0.0..=3600.0)?;
+        check::within("ease", state.ease, 0.0..=1.0)?;
+        check::within("stiffness", state.stiffness, 0.0..=3.0)?;
+        let resolved = |field: &str, condition: &Condition| {
+            let found = condition.named(&self.conditions).and_then(|mut condition| {
+                condition.resolve(model)?;
+                Ok(condition)
+            });
+            found.map_err(|e| e.inside(field))
+        };
+        let follower = |field: &str, name: &Option<String>, otherwise: usize| {
+            let found = self.follower(name.as_deref(), otherwise);
+            found.map_err(|e| e.inside(field))
+        };
+        let next = follower("next", &state.next, i + 1)?;
+        let name = state.name.as_ref();
+        Ok(Key {
+            name: name.map_or_else(|| format!("state {i}"), |n| format!("'{n}'")),
+            pose: Vec::new(),
+            duration: state.duration,
+            ease: state.ease,
+            until: resolved("until", &state.until)?,
+            expects: resolved("expects", &state.expects)?,
+            stiffness: state.stiffness,
+            next,
+            then: follower("then", &state.then, next)?,
+        })
+    }
+
+    /// Refuses a name that stands twice, or that is the end's.
+    fn check_names(&self) -> Result<()> {
+        for (i, state) in self.states.iter().enumerate() {
+            let Some(name) = state.name.as_deref() else {
+                continue;
+            };
+            let before = &self.states[..i];
+            if name == END || before.iter().any(|s| s.name.as_deref() == Some(name)) {
+                let accepted = "a name that no other state has, and not 'end'";
+                let refused = Error::refused("name", format!("'{name}'"), accepted);
+                return Err(refused.inside(("states", i)));
+            }
+        }
+        Ok(())
+    }
+
+    /// Place of the state of this name, or `otherwise`; the number of states is the end.
+    fn follower(&self, name: Option<&str>, otherwise: usize) -> Result<usize> {
+        let Some(name) = name else {
+            return Ok(otherwise);
+        };
+        if name == END {
+            return Ok(self.states.len());
+        }
+        let mut names = self.states.iter().map(|s| s.name.as_deref());
+        let known = || self.states.iter().filter_map(|s| s.name.as_deref());
+        let unknown = || Error::unknown("state", name, known().chain([END]));
+        names.position(|n| n == Some(name)).ok_or_else(unknown)
     }
 }
 
@@ -244,7 +299,7 @@ impl PoseController {
         } else if now.time - self.since >= key.duration * self.slowness {
             if let Some(refusal) = key.expects.first_failure(now) {
                 let mut unmet = refusal.expected();
-                unmet.clause = format!("after state {}: {}", self.key, unmet.clause);
+                unmet.clause = format!("after {}: {}", key.name, unmet.clause);
                 self.missed = Some(unmet);
             }
             self.begin(now, key.next);

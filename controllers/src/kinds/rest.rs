@@ -7,12 +7,12 @@ use std::sync::Arc;
 
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Contract, Controller, Spec};
-use aplomb_framework::input::Result;
+use aplomb_framework::input::{Result, check};
 use aplomb_framework::sensing::Sensors;
 use serde::{Deserialize, Serialize};
 
 use crate::servo::Servo;
-use crate::target::{NamedAngles, bounded, overlay};
+use crate::target::{NamedAngles, overlay};
 
 /// Parameters of [`Rest`] in a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -48,10 +48,10 @@ impl Spec for RestSpec {
     const KIND: &'static str = "rest";
 
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
-        bounded(&contract.name, "stiffness", self.stiffness, 0.0, 1.0)?;
-        bounded(&contract.name, "damping", self.damping, 0.0, 1.0)?;
+        check::within("stiffness", self.stiffness, 0.0..=1.0)?;
+        check::within("damping", self.damping, 0.0..=1.0)?;
         let mut pose = vec![0.0; model.joint_count()];
-        overlay(model, &self.pose, "pose", [-7.0, 7.0], &mut pose)?;
+        overlay(model, &self.pose, &mut pose).map_err(|e| e.inside("pose"))?;
         let servo = Servo::new(model, self.stiffness, self.damping);
         Ok(Box::new(Rest {
             contract,

@@ -13,12 +13,12 @@ use std::sync::Arc;
 
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Contract, Controller, Spec};
-use aplomb_framework::input::Result;
+use aplomb_framework::input::{Result, check};
 use aplomb_framework::sensing::Sensors;
 use serde::{Deserialize, Serialize};
 
 use crate::servo::Servo;
-use crate::target::{NamedAngles, bounded, joints_named, overlay};
+use crate::target::{NamedAngles, joints_named, overlay};
 
 /// Parameters of [`Stance`] in a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -85,18 +85,19 @@ impl Spec for StanceSpec {
             ("bend_gain", self.bend_gain, 0.0, 100.0),
             ("bend_margin", self.bend_margin, -0.1, 0.2),
         ] {
-            bounded(&contract.name, field, value, low, high)?;
+            check::within(field, value, low..=high)?;
         }
         let mut pose = vec![0.0; model.joint_count()];
-        overlay(model, &self.pose, "pose", [-7.0, 7.0], &mut pose)?;
-        let ankles = joints_named(model, &self.ankle)?;
+        overlay(model, &self.pose, &mut pose).map_err(|e| e.inside("pose"))?;
+        let ankles = joints_named(model, &self.ankle).map_err(|e| e.inside("ankle"))?;
+        let waist = joints_named(model, &self.waist).map_err(|e| e.inside("waist"))?;
         Ok(Box::new(Stance {
             contract,
             servo: Servo::new(model, self.stiffness, 1.0),
             target: pose.clone(),
             pose,
             ankles: ankles.into_iter().map(|j| (j, j + 1)).collect(),
-            waist: joints_named(model, &self.waist)?,
+            waist,
             spec: self,
         }))
     }

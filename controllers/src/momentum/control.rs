@@ -16,6 +16,7 @@
 use std::sync::Arc;
 
 use aplomb_framework::character::{Dynamics, Foot, Model, Point};
+use aplomb_framework::math::sin;
 use aplomb_framework::sensing::{FootContact, Sensors};
 use serde::{Deserialize, Serialize};
 
@@ -169,7 +170,7 @@ impl Momentum {
                         + damping * (s.velocity[k] - velocity[k])
                         - bias[k];
                 }
-                target[2] = s.stiffness * (s.angle - motion.angle).sin() - damping * motion.rate;
+                target[2] = s.stiffness * sin(s.angle - motion.angle) - damping * motion.rate;
                 continue;
             }
             let mut pull = [0.0; 2];
@@ -180,7 +181,7 @@ impl Momentum {
             target[0] = pull[0] - d * velocity[0] - bias[0];
             target[1] = pull[1] - d * velocity[1] - bias[1];
             // A tilted foot is brought back flat.
-            target[2] = -d * motion.rate - stiffness * motion.angle.sin();
+            target[2] = -d * motion.rate - stiffness * sin(motion.angle);
         }
     }
 }

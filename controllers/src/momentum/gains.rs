@@ -1,9 +1,7 @@
 //! Gains and weights of momentum control, with their bounds.
 
-use aplomb_framework::input::Result;
+use aplomb_framework::input::{Result, check};
 use serde::{Deserialize, Serialize};
-
-use crate::target::bounded;
 
 /// Gains and weights; the symbols are the paper's.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -76,33 +74,33 @@ impl Default for Gains {
 }
 
 impl Gains {
-    /// Checks every number; `place` is for messages.
+    /// Checks every number.
     ///
     /// # Errors
     /// The field that is out of bounds, and its bounds.
-    pub fn validate(&self, place: &str) -> Result<()> {
+    pub fn validate(&self) -> Result<()> {
         for (field, value, low, high) in [
-            ("gains.kl", self.kl, 0.0, 1e4),
-            ("gains.dl", self.dl, 0.0, 1e4),
-            ("gains.kl_height", self.kl_height, 0.0, 1e4),
-            ("gains.dl_height", self.dl_height, 0.0, 1e4),
-            ("gains.dh", self.dh, 0.0, 1e3),
-            ("gains.kt", self.kt, 0.0, 1e4),
-            ("gains.dt", self.dt, 0.0, 1e3),
-            ("gains.linear", self.linear, 1e-6, 1e6),
-            ("gains.angular", self.angular, 0.0, 1e6),
-            ("gains.tracking", self.tracking, 1e-6, 1e6),
-            ("gains.root", self.root, 1e-3, 1e3),
-            ("gains.feet", self.feet, 1e-3, 1e9),
-            ("gains.tilted", self.tilted, 0.0, 1e9),
-            ("gains.lifted", self.lifted, 0.0, 1e9),
-            ("gains.feet_damping", self.feet_damping, 0.0, 200.0),
-            ("gains.margin", self.margin, 0.0, 0.1),
-            ("gains.friction", self.friction, 0.01, 10.0),
-            ("gains.strength", self.strength, 0.01, 1.0),
-            ("gains.period", self.period, 0.0, 0.1),
+            ("kl", self.kl, 0.0, 1e4),
+            ("dl", self.dl, 0.0, 1e4),
+            ("kl_height", self.kl_height, 0.0, 1e4),
+            ("dl_height", self.dl_height, 0.0, 1e4),
+            ("dh", self.dh, 0.0, 1e3),
+            ("kt", self.kt, 0.0, 1e4),
+            ("dt", self.dt, 0.0, 1e3),
+            ("linear", self.linear, 1e-6, 1e6),
+            ("angular", self.angular, 0.0, 1e6),
+            ("tracking", self.tracking, 1e-6, 1e6),
+            ("root", self.root, 1e-3, 1e3),
+            ("feet", self.feet, 1e-3, 1e9),
+            ("tilted", self.tilted, 0.0, 1e9),
+            ("lifted", self.lifted, 0.0, 1e9),
+            ("feet_damping", self.feet_damping, 0.0, 200.0),
+            ("margin", self.margin, 0.0, 0.1),
+            ("friction", self.friction, 0.01, 10.0),
+            ("strength", self.strength, 0.01, 1.0),
+            ("period", self.period, 0.0, 0.1),
         ] {
-            bounded(place, field, value, low, high)?;
+            check::within(field, value, low..=high)?;
         }
         Ok(())
     }

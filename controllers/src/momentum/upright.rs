@@ -13,7 +13,7 @@ use crate::momentum::control::{Formulation, Momentum};
 use crate::momentum::gains::Gains;
 use crate::momentum::reference::Reference;
 use crate::servo::Servo;
-use crate::target::{NamedAngles, overlay};
+use crate::target::{NamedAngles, overlay, overlay_within};
 
 /// How fast the reference centre of mass follows the base of support, m/s.
 pub(crate) const GLIDE: f64 = 0.3;
@@ -37,31 +37,24 @@ pub(crate) struct Upright {
 }
 
 impl Upright {
-    /// For a character; `place` names the controller in messages. Joints that `pose` does not name
-    /// are 0, those that `joint_weights` does not name have 1.
+    /// For a character. Joints that `pose` does not name are 0, those that `joint_weights` does not
+    /// name have 1.
     ///
     /// # Errors
     /// Gains out of bounds; unknown joints, or values out of bounds.
     pub(crate) fn new(
-        place: &str,
         model: &Arc<Model>,
         formulation: Formulation,
         gains: Gains,
         pose: &NamedAngles,
         joint_weights: &NamedAngles,
     ) -> Result<Self> {
-        gains.validate(place)?;
+        gains.validate().map_err(|e| e.inside("gains"))?;
         let mut angles = vec![0.0; model.joint_count()];
-        overlay(model, pose, "pose", [-7.0, 7.0], &mut angles)?;
+        overlay(model, pose, &mut angles).map_err(|e| e.inside("pose"))?;
         let mut weights = vec![1.0; model.joint_count()];
-        let accepted = [1e-3, 1e3];
-        overlay(
-            model,
-            joint_weights,
-            "joint_weights",
-            accepted,
-            &mut weights,
-        )?;
+        let weighted = overlay_within(model, joint_weights, 1e-3..=1e3, &mut weights);
+        weighted.map_err(|e| e.inside("joint_weights"))?;
         Ok(Self {
             momentum: Momentum::new(model, formulation, gains, weights),
             servo: Servo::new(model, 0.5, 1.0),

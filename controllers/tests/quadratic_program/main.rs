@@ -1,5 +1,9 @@
 //! Tests of the dual active-set solver, against an interior-point solver and against KKT.
 #![allow(clippy::unwrap_used)]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the standard library's functions"
+)]
 
 mod hard;
 mod known;

@@ -10,7 +10,7 @@ use super::built;
 
 #[test]
 fn every_character_stands_and_takes_a_push() {
-    for (name, _) in Model::BUILT_IN {
+    for (name, _) in Model::built_in() {
         let model = Model::load(name).unwrap();
         for direction in [-1.0, 1.0] {
             let mut scenario = Scenario::standing(name, 5.0);

@@ -1,7 +1,12 @@
 //! The skills of the shipped humanoid, each for what it promises.
 #![allow(clippy::unwrap_used)]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the standard library's functions"
+)]
 
 mod characters;
+mod learned;
 mod pose;
 mod step;
 

@@ -39,13 +39,14 @@ fn a_state_that_ends_short_of_what_it_expects_fails_and_says_so() {
     for (first, second, after) in [(high, "Always", 0), ("Always", high, 1)] {
         let run = waves(&format!(
             r#"(pose: {{"shoulder_r": 0.2}}, duration: 0.3, expects: {first}),
-            (pose: {{"shoulder_r": 0.6}}, duration: 0.3, expects: {second})"#
+            (name: "up", pose: {{"shoulder_r": 0.6}}, duration: 0.3, expects: {second})"#
         ));
         let (time, _, reason) = switches(&run)[1];
         let Reason::Failed(unmet) = reason else {
             panic!("{reason}");
         };
-        let clause = format!("after state {after}: expected angle.shoulder_r ≥ 2");
+        let state = ["state 0", "'up'"][after as usize];
+        let clause = format!("after {state}: expected angle.shoulder_r ≥ 2");
         assert_eq!(unmet.clause, clause);
         assert!(unmet.value().is_some_and(|v| v < 2.0), "{unmet}");
         let due = 0.3 * f64::from(after + 1);
@@ -58,11 +59,50 @@ fn a_state_leads_elsewhere_when_its_condition_holds_than_when_its_time_is_up() {
     // The first state ends at once, or never before its time; the second lifts the arm.
     for (until, lifted) in [("Always", false), ("Never", true)] {
         let run = waves(&format!(
-            r#"(duration: 0.1, until: {until}, then: 2),
+            r#"(duration: 0.1, until: {until}, then: "end"),
             (pose: {{"shoulder_r": 0.6}}, duration: 1.0)"#
         ));
         let shoulder = humanoid().joint_index("shoulder_r").unwrap();
         let angle = run.sensors(0).state.angles()[shoulder];
         assert_eq!(angle > 0.3, lifted, "{angle}");
+    }
+}
+
+/// A pose controller's states and named conditions, or why they are refused.
+fn built(states: &str, conditions: &str) -> Result<(), String> {
+    let text = format!(
+        r#"(kind: "pose", contract: (name: "x", weight: 1, precondition: Always),
+            spec: (states: [{states}], conditions: {{{conditions}}}))"#
+    );
+    let source = Source::new("x.ron", text);
+    let file = source.parse().map_err(|e| e.to_string())?;
+    let built = aplomb_controllers::registry().build(&source, &file, &humanoid());
+    built.map(drop).map_err(|e| e.to_string())
+}
+
+#[test]
+fn states_and_conditions_are_referred_to_by_name() {
+    let fine = r#"(name: "a", duration: 1, until: Not(Named("up")), then: "end"), (duration: 1, next: "a")"#;
+    let up = r#""up": Posture([standing])"#;
+    assert_eq!(built(fine, up), Ok(()));
+    let refusals = [
+        (
+            r#"(name: "lift", duration: 1, next: "lfit")"#,
+            "did you mean 'lift'?",
+        ),
+        (
+            r#"(name: "a", duration: 1), (name: "a", duration: 1)"#,
+            "states[1].name is 'a'",
+        ),
+        (r#"(name: "end", duration: 1)"#, "not 'end'"),
+        (
+            r#"(duration: 1, expects: Named("pu"))"#,
+            "unknown condition 'pu'",
+        ),
+        (r#"(duration: 1, next: 0)"#, "x.ron:"),
+    ];
+    for (states, why) in refusals {
+        let told = built(states, up).unwrap_err();
+        assert!(told.contains(why), "{states}: {told}");
     }
 }

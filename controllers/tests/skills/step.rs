@@ -58,8 +58,9 @@ fn feet_that_slid_apart_under_a_bow_are_closed_by_a_step() {
 #[test]
 fn numbers_out_of_bounds_are_refused_with_their_field_and_the_bounds() {
     let text = shipped("skills/protective_step.ron");
+    let begins = |field: &str| text.find(&format!(" {field}: ")).unwrap() + field.len() + 3;
     let with = |field: &str, value: &str| {
-        let number = text.find(&format!(" {field}: ")).unwrap() + field.len() + 3;
+        let number = begins(field);
         let length = text[number..].find(',').unwrap();
         format!("{}{value}{}", &text[..number], &text[number + length..])
     };
@@ -72,7 +73,13 @@ fn numbers_out_of_bounds_are_refused_with_their_field_and_the_bounds() {
         ("swing_time", "9.0", "0.1 to 1"),
     ] {
         let told = built(&with(field, value)).unwrap_err();
-        assert!(told.contains("protective_step"), "{told}");
+        let before = &text[..begins(field)];
+        let (line, column) = (
+            before.lines().count(),
+            before.lines().last().unwrap().len() + 1,
+        );
+        let place = format!("mine.ron:{line}:{column}: spec.");
+        assert!(told.starts_with(&place), "{place} expected: {told}");
         let problem = format!("{field} is {}", value.trim_end_matches(".0"));
         assert!(told.contains(&problem), "{told}");
         assert!(told.ends_with(&format!("; accepted: {accepted}")), "{told}");

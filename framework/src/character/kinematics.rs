@@ -6,6 +6,7 @@
 use crate::character::model::Model;
 use crate::character::shape::{Point, Shape};
 use crate::character::state::State;
+use crate::math::sin_cos;
 
 /// Pose and velocity of one link, world frame.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -82,7 +83,7 @@ impl Kinematics {
                     )
                 }
             };
-            let (sin, cos) = angle.sin_cos();
+            let (sin, cos) = sin_cos(angle);
             let turn = [cos, sin];
             let arm = turned(turn, link.com);
             let com = [origin[0] + arm[0], origin[1] + arm[1]];

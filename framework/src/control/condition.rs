@@ -3,6 +3,7 @@
 //! In the 2001 paper's terms these are the relations on state, environment, contacts and balance
 //! of which pre-conditions, post-conditions and expected performance are made.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
@@ -11,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::character::Model;
 use crate::control::boundary::Boundary;
 use crate::events::{Found, Unmet};
-use crate::input::{Error, Result};
+use crate::input::{Error, FieldPath, Result};
 use crate::sensing::{Feature, Posture, Sensors};
 
 /// A region of situations. Bounds are inclusive; what is not a number lies in no bounds.
@@ -55,6 +56,9 @@ pub enum Condition {
     /// A learned boundary says that success is expected. Where a feature of it is not a number it
     /// does not.
     Svm(Arc<Boundary>),
+    /// The condition that the file gives this name to. It stands in files alone: [`Condition::named`]
+    /// puts the condition in its place; without that it holds nowhere.
+    Named(String),
 }
 
 fn lowest() -> f64 {
@@ -76,25 +80,25 @@ pub struct Failure<'a> {
     pub clause: &'a Condition,
     /// The value of its feature, if it is about one; the score of a learned boundary.
     pub value: Option<f64>,
-    /// The posture at the time.
-    pub posture: Posture,
+    /// What was sensed.
+    pub now: &'a Sensors,
 }
 
 impl Condition {
     /// The first clause that does not hold now; none if the condition holds. Of alternatives
     /// none of which holds, the last one's refusal is told.
     #[must_use]
-    pub fn first_failure<'a>(&'a self, now: &Sensors) -> Option<Failure<'a>> {
+    pub fn first_failure<'a>(&'a self, now: &'a Sensors) -> Option<Failure<'a>> {
         let refused = |value| {
             Some(Failure {
                 clause: self,
                 value,
-                posture: now.posture,
+                now,
             })
         };
         match self {
             Self::Always => None,
-            Self::Never => refused(None),
+            Self::Never | Self::Named(_) => refused(None),
             Self::Within { feature, min, max } => {
                 let v = feature.value(now);
                 if v >= *min && v <= *max {
@@ -151,7 +155,11 @@ impl Condition {
             Self::Svm(_) => true,
             Self::All(list) | Self::Any(list) => list.iter().any(Self::is_learned),
             Self::Not(c) => c.is_learned(),
-            Self::Always | Self::Never | Self::Within { .. } | Self::Posture(_) => false,
+            Self::Always
+            | Self::Never
+            | Self::Within { .. }
+            | Self::Posture(_)
+            | Self::Named(_) => false,
         }
     }
 
@@ -176,44 +184,84 @@ impl Condition {
         visit: &mut impl FnMut(&Feature) -> Result<()>,
     ) -> Result<()> {
         match self {
-            Self::Within { feature, .. } => visit(feature),
+            Self::Within { feature, .. } => visit(feature).map_err(|e| e.inside("feature")),
             Self::All(list) | Self::Any(list) => {
-                list.iter().try_for_each(|c| c.each_feature(visit))
+                let mut clauses = list.iter().enumerate();
+                clauses
+                    .try_for_each(|(i, c)| c.each_feature(visit).map_err(|e| e.inside(clause(i))))
             }
-            Self::Not(c) => c.each_feature(visit),
-            Self::Always | Self::Never | Self::Posture(_) | Self::Svm(_) => Ok(()),
+            Self::Not(c) => c
+                .each_feature(visit)
+                .map_err(|e| e.inside(FieldPath::inner())),
+            Self::Always | Self::Never | Self::Posture(_) | Self::Svm(_) | Self::Named(_) => Ok(()),
         }
+    }
+
+    /// The same condition with those that it names in their places.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] with the names that there are.
+    pub fn named(&self, names: &BTreeMap<String, Self>) -> Result<Self> {
+        let all = |list: &[Self]| {
+            let one = |(i, c): (usize, &Self)| c.named(names).map_err(|e| e.inside(clause(i)));
+            list.iter().enumerate().map(one).collect::<Result<Vec<_>>>()
+        };
+        Ok(match self {
+            Self::Named(name) => {
+                let known = || names.keys().map(String::as_str);
+                let unknown = || Error::unknown("condition", name, known());
+                names.get(name).ok_or_else(unknown)?.clone()
+            }
+            Self::All(list) => Self::All(all(list)?),
+            Self::Any(list) => Self::Any(all(list)?),
+            Self::Not(c) => {
+                let named = c.named(names).map_err(|e| e.inside(FieldPath::inner()))?;
+                Self::Not(Box::new(named))
+            }
+            _ => self.clone(),
+        })
     }
 
     /// Looks up the joints that features name, and checks the bounds.
     ///
     /// # Errors
-    /// An unknown joint; bounds that are not numbers or out of order; a learned boundary that is
+    /// An unknown joint; a name in the place of a condition; bounds that are not numbers or out of order; a learned boundary that is
     /// invalid or of another character.
     pub fn resolve(&mut self, model: &Model) -> Result<()> {
         match self {
             Self::Within { feature, min, max } => {
-                feature.resolve(model)?;
-                if min.is_nan() || max.is_nan() || min > max {
-                    return Err(Error::invalid(
-                        format!("Within(feature: \"{feature}\")"),
-                        "min, max",
-                        format!("{min}, {max}"),
-                        "two numbers with min ≤ max",
-                    ));
+                let named = feature.resolve(model);
+                named.map_err(|e| e.inside("feature"))?;
+                if max.is_nan() {
+                    return Err(Error::refused("max", max, "a number"));
+                }
+                if min.is_nan() || min > max {
+                    let accepted = format!("a number with min ≤ max, which is {max}");
+                    return Err(Error::refused("min", min, accepted));
                 }
             }
             Self::All(list) | Self::Any(list) => {
-                for c in list {
-                    c.resolve(model)?;
+                for (i, c) in list.iter_mut().enumerate() {
+                    c.resolve(model).map_err(|e| e.inside(clause(i)))?;
                 }
             }
-            Self::Not(c) => c.resolve(model)?,
-            Self::Svm(boundary) => Arc::make_mut(boundary).resolve(model)?,
+            Self::Not(c) => c.resolve(model).map_err(|e| e.inside(FieldPath::inner()))?,
+            Self::Svm(boundary) => {
+                let learned = Arc::make_mut(boundary).resolve(model);
+                learned.map_err(|e| e.inside(FieldPath::inner()))?;
+            }
+            Self::Named(name) => {
+                return Err(Error::unknown("condition", name, std::iter::empty()));
+            }
             Self::Always | Self::Never | Self::Posture(_) => {}
         }
         Ok(())
     }
+}
+
+/// The way to a clause of `All([…])` or `Any([…])`.
+fn clause(place: usize) -> FieldPath {
+    FieldPath::inner().then(place)
 }
 
 impl fmt::Display for Condition {
@@ -248,6 +296,7 @@ impl fmt::Display for Condition {
             Self::Any(any) => list(f, any, "or"),
             Self::Not(c) => write!(f, "not {c}"),
             Self::Svm(boundary) => write!(f, "{boundary}"),
+            Self::Named(name) => f.write_str(name),
         }
     }
 }
@@ -258,11 +307,13 @@ impl Failure<'_> {
     pub fn unmet(&self) -> Unmet {
         let found = match (self.clause, self.value) {
             (Condition::Within { feature, .. }, Some(v)) if v.is_nan() => {
-                Found::Absent(feature.absence())
+                Found::Absent(feature.absence(self.now))
             }
-            (Condition::Svm(boundary), Some(v)) if v.is_nan() => Found::Absent(boundary.absence()),
+            (Condition::Svm(boundary), Some(v)) if v.is_nan() => {
+                Found::Absent(boundary.absence(self.now))
+            }
             (_, Some(v)) => Found::Value(v),
-            (Condition::Posture(_), None) => Found::State(self.posture.name().to_owned()),
+            (Condition::Posture(_), None) => Found::State(self.now.posture.name().to_owned()),
             _ => Found::Nothing,
         };
         Unmet {

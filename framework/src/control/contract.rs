@@ -7,7 +7,7 @@ use crate::character::Model;
 use crate::control::command::{Answer, Command};
 use crate::control::condition::{Condition, is_infinite};
 use crate::events::{Role, Unmet};
-use crate::input::{Error, Result};
+use crate::input::{Error, FieldPath, Result, check, shortened};
 use crate::sensing::Sensors;
 
 /// How an active controller is getting on.
@@ -91,35 +91,31 @@ impl Contract {
     /// # Errors
     /// Unknown joints; bounds, times or parameters that are no numbers or out of order.
     pub fn resolve(&mut self, model: &Model) -> Result<()> {
-        self.precondition.resolve(model)?;
-        self.postcondition.resolve(model)?;
-        self.expected.resolve(model)?;
-        let invalid = |field: String, problem: String, accepted: &str| {
-            Err(Error::invalid(&self.name, field, problem, accepted))
-        };
-        if self.name.is_empty()
-            || self
-                .name
-                .parse::<Command>()
-                .map_or(true, |c| c.name != self.name)
-        {
+        for (field, condition) in [
+            ("precondition", &mut self.precondition),
+            ("postcondition", &mut self.postcondition),
+            ("expected", &mut self.expected),
+        ] {
+            condition.resolve(model).map_err(|e| e.inside(field))?;
+        }
+        let command = self.name.parse::<Command>();
+        if command.map_or(true, |c| c.name != self.name) {
+            let problem = format!("'{}'", shortened(&self.name));
             let accepted = "a letter, then letters, digits and '_'";
-            return invalid("name".into(), format!("'{}'", self.name), accepted);
+            return Err(Error::refused("name", problem, accepted));
         }
-        if self.hold.is_nan() || self.hold < 0.0 || self.hold > 60.0 {
-            return invalid("hold".into(), self.hold.to_string(), "0 to 60 s");
-        }
-        if self.patience.is_nan() || self.patience <= 0.0 {
-            return invalid("patience".into(), self.patience.to_string(), "above 0 s");
-        }
-        for answer in &self.commands {
-            for p in &answer.parameters {
-                let ordered = p.min <= p.default && p.default <= p.max;
-                if !(ordered && p.min.is_finite() && p.max.is_finite()) {
-                    let field = format!("commands.{}.{}", answer.name, p.name);
-                    let problem = format!("{} ≤ {} ≤ {}", p.min, p.default, p.max);
-                    return invalid(field, problem, "finite min ≤ default ≤ max");
+        check::within("hold", self.hold, 0.0..=60.0)?;
+        check::above("patience", self.patience, 0.0, f64::INFINITY)?;
+        for (i, answer) in self.commands.iter().enumerate() {
+            for (k, p) in answer.parameters.iter().enumerate() {
+                let of = |e: Error| e.inside(("parameters", k)).inside(("commands", i));
+                check::finite("min", p.min).map_err(of)?;
+                check::finite("max", p.max).map_err(of)?;
+                if p.min > p.max {
+                    let accepted = format!("a number with min ≤ max, which is {}", p.max);
+                    return Err(of(Error::refused("min", p.min, accepted)));
                 }
+                check::within("default", p.default, p.min..=p.max).map_err(of)?;
             }
         }
         if self.commands.is_empty() {
@@ -178,20 +174,22 @@ impl Contract {
         }
     }
 
-    /// Checks that names are parameters of its commands; `place` is for messages.
+    /// Checks that a name in the spec's `field` is that of a parameter of its commands.
     ///
     /// # Errors
-    /// [`Error::Unknown`] with the parameters that there are.
-    pub fn check_parameters<'a>(
+    /// The nearest, and the parameters that there are.
+    pub fn check_parameter(
         &self,
-        names: impl IntoIterator<Item = &'a String>,
-        place: &str,
+        field: impl Into<FieldPath>,
+        name: Option<&String>,
     ) -> Result<()> {
         let parameters = self.commands.iter().flat_map(|a| &a.parameters);
-        let known: Vec<&str> = parameters.map(|p| p.name.as_str()).collect();
-        match names.into_iter().find(|n| !known.contains(&n.as_str())) {
-            Some(unknown) => Err(Error::unknown("parameter", unknown, known).at(place)),
-            None => Ok(()),
+        let mut known = parameters.map(|p| p.name.as_str());
+        match name {
+            Some(name) if !known.clone().any(|k| k == name) => {
+                Err(Error::unknown("parameter", name, &mut known).inside(field))
+            }
+            _ => Ok(()),
         }
     }
 

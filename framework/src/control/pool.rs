@@ -6,7 +6,7 @@ use crate::control::condition::Condition;
 use crate::control::contract::Contract;
 use crate::control::controller::Controller;
 use crate::events::{Bid, Refusal, Role};
-use crate::input::{Error, Result};
+use crate::input::{Error, FieldPath, Result};
 use crate::sensing::Sensors;
 
 /// A controller of a pool.
@@ -60,12 +60,12 @@ impl Member {
     }
 }
 
-/// The fallback's place in the pool of the supervisor `name`.
+/// The fallback's place in a pool.
 ///
 /// # Errors
 /// [`Error::Invalid`] if a name occurs twice, or the fallback is missing, has weight 0, or does not
 /// accept every state.
-pub(crate) fn fallback(name: &str, pool: &[Box<dyn Controller>], fallback: &str) -> Result<usize> {
+pub(crate) fn fallback(pool: &[Box<dyn Controller>], fallback: &str) -> Result<usize> {
     for (i, c) in pool.iter().enumerate() {
         let twin = pool[..i]
             .iter()
@@ -73,16 +73,17 @@ pub(crate) fn fallback(name: &str, pool: &[Box<dyn Controller>], fallback: &str)
         if twin {
             let problem = format!("'{}' a second time", c.contract().name);
             let accepted = "a name of its own for each controller";
-            return Err(Error::invalid(name, "controllers", problem, accepted));
+            return Err(Error::refused("contract.name", problem, accepted)
+                .inside(FieldPath::inner())
+                .inside(("controllers", i)));
         }
     }
     let place = pool
         .iter()
         .position(|c| c.contract().name == fallback)
         .ok_or_else(|| {
-            let names: Vec<&str> = pool.iter().map(|c| c.contract().name.as_str()).collect();
-            let accepted = format!("a controller of the pool: {}", names.join(", "));
-            Error::invalid(name, "fallback", format!("'{fallback}'"), accepted)
+            let names = pool.iter().map(|c| c.contract().name.as_str());
+            Error::unknown("controller of the pool", fallback, names).inside("fallback")
         })?;
     let last = pool[place].contract();
     if last.precondition != Condition::Always
@@ -92,7 +93,7 @@ pub(crate) fn fallback(name: &str, pool: &[Box<dyn Controller>], fallback: &str)
         let problem = format!("'{fallback}', which does not accept every state");
         let accepted =
             "a controller with weight above 0 and pre-condition and expected performance Always";
-        return Err(Error::invalid(name, "fallback", problem, accepted));
+        return Err(Error::refused("fallback", problem, accepted));
     }
     Ok(place)
 }

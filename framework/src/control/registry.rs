@@ -49,7 +49,8 @@ pub trait Spec: DeserializeOwned {
     /// are checked: control itself cannot fail.
     ///
     /// # Errors
-    /// Whatever the spec names and the model lacks, and numbers out of bounds.
+    /// Whatever the spec names and the model lacks, and numbers out of bounds: by their way from the
+    /// spec ([`Error::inside`]), so that the registry can tell where they stand.
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>>;
 }
 
@@ -61,6 +62,9 @@ pub struct ControllerFile {
     pub kind: String,
     /// What the controller promises.
     pub contract: Contract,
+    /// What the controller is measured by, for those who train and measure it; not read here.
+    #[serde(default)]
+    pub exercise: Option<Box<RawValue>>,
     /// The kind's parameters.
     #[serde(default = "empty")]
     pub spec: Box<RawValue>,
@@ -102,7 +106,7 @@ type Build = fn(&Source, &RawValue, Contract, &Arc<Model>) -> Result<Box<dyn Con
 #[derive(Debug, Clone, Default)]
 pub struct Registry {
     kinds: BTreeMap<&'static str, Build>,
-    files: BTreeMap<&'static str, &'static str>,
+    files: BTreeMap<String, &'static str>,
 }
 
 impl Registry {
@@ -121,8 +125,8 @@ impl Registry {
 
     /// Adds a shipped file under its name, for example `skills/bow.ron`.
     #[must_use]
-    pub fn with_file(mut self, name: &'static str, text: &'static str) -> Self {
-        self.files.insert(name, text);
+    pub fn with_file(mut self, name: impl Into<String>, text: &'static str) -> Self {
+        self.files.insert(name.into(), text);
         self
     }
 
@@ -134,11 +138,12 @@ impl Registry {
     }
 
     /// Names of the shipped files.
-    pub fn files(&self) -> impl Iterator<Item = &'static str> + '_ {
-        self.files.keys().copied()
+    pub fn files(&self) -> impl Iterator<Item = &str> {
+        self.files.keys().map(String::as_str)
     }
 
-    /// Builds a controller from a parsed file. `source` is the text that the file stands in.
+    /// Builds a controller from a parsed file. `source` is the text that the file is, or the part of
+    /// a text ([`Source::part`]).
     ///
     /// # Errors
     /// An unknown kind, with the nearest; a spec or contract that does not fit the character.
@@ -148,21 +153,14 @@ impl Registry {
         file: &ControllerFile,
         model: &Arc<Model>,
     ) -> Result<Box<dyn Controller>> {
-        let quoted = format!("\"{}\"", file.contract.name);
-        let named = format!("name: {quoted}");
-        let needle = if source.text.contains(&named) {
-            named
-        } else {
-            quoted
-        };
-        let place = source.place(&needle);
         let build = self.kinds.get(file.kind.as_str()).ok_or_else(|| {
-            Error::unknown("controller kind", &file.kind, self.kinds.keys().copied()).at(&place)
+            let known = self.kinds.keys().copied();
+            source.locate(Error::unknown("controller kind", &file.kind, known).inside("kind"))
         })?;
         let mut contract = file.contract.clone();
-        let at = |e: Error| within(e, &place, &file.contract.name);
-        contract.resolve(model).map_err(at)?;
-        build(source, &file.spec, contract, model).map_err(at)
+        let resolved = contract.resolve(model);
+        resolved.map_err(|e| source.locate(e.inside("contract")))?;
+        build(source, &file.spec, contract, model)
     }
 }
 
@@ -172,38 +170,8 @@ fn build<S: Spec>(
     contract: Contract,
     model: &Arc<Model>,
 ) -> Result<Box<dyn Controller>> {
-    let text = raw.get_ron();
-    let spec: S = options().from_str(text).map_err(|e| {
-        let before = &source.text[..spec_start(source, text, &contract.name)];
-        let line = before.matches('\n').count();
-        let column = before.len() - before.rfind('\n').map_or(0, |i| i + 1);
-        source.syntax(&e, (line, column))
-    })?;
-    spec.build(contract, model)
-}
-
-/// The same refusal, said to be of a controller in a file.
-fn within(mut error: Error, place: &str, controller: &str) -> Error {
-    let Error::Invalid { place: inner, .. } = &mut error else {
-        return error.at(&format!("{place}: {controller}"));
-    };
-    *inner = if inner.starts_with(controller) {
-        format!("{place}: {inner}")
-    } else {
-        format!("{place}: {controller}: {inner}")
-    };
-    error
-}
-
-/// Where the spec with this text begins: behind its controller's name if one does, else anywhere.
-fn spec_start(source: &Source, spec: &str, controller: &str) -> usize {
-    let name = source.text.find(&format!("\"{controller}\"")).unwrap_or(0);
-    let all = || source.text.match_indices(spec).map(|(at, _)| at);
-    let is_spec = |at: &usize| source.text[..*at].trim_end().ends_with("spec:");
-    all()
-        .filter(is_spec)
-        .find(|at| *at > name)
-        .or_else(|| all().find(is_spec))
-        .or_else(|| all().next())
-        .unwrap_or(0)
+    let spec = options().from_str::<S>(raw.get_ron());
+    let spec = spec.map_err(|e| source.syntax(&e, "spec"))?;
+    let built = spec.build(contract, model);
+    built.map_err(|e| source.locate(e.inside("spec")))
 }

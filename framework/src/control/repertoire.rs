@@ -13,9 +13,10 @@ use crate::character::Model;
 use crate::control::Boundary;
 use crate::control::boundary::LARGEST_BOUNDARY;
 use crate::control::condition::Condition;
+use crate::control::pool;
 use crate::control::registry::{ControllerFile, Registry};
 use crate::control::supervisor::Supervisor;
-use crate::input::{Error, LARGEST_TEXT, Result, Source, shortened};
+use crate::input::{Error, FieldPath, LARGEST_TEXT, Result, Source, check, shortened};
 
 /// At most this many controllers a repertoire.
 pub const MOST_CONTROLLERS: usize = 256;
@@ -69,19 +70,22 @@ impl Part {
         if boundary.controller != contract.name {
             let problem = format!("'{}'", shortened(&boundary.controller));
             let accepted = format!("'{}', whose pre-condition it refines", contract.name);
-            return Err(source.invalid("controller", "controller", problem, accepted));
+            return Err(source.locate(Error::refused("controller", problem, accepted)));
         }
         contract.confident |= confident;
         self.learned = Some((source, boundary));
         Ok(self)
     }
 
-    /// Makes sure that what was learned was learned with this character.
+    /// Makes sure that what was learned was learned with this character, and looks up the joints of
+    /// what it refines, as long as that stands in the contract as in its file.
     fn resolve(&mut self, model: &Model) -> Result<()> {
-        match &mut self.learned {
-            Some((source, boundary)) => boundary.resolve_at(model, &|field| source.place(field)),
-            None => Ok(()),
-        }
+        let Some((source, boundary)) = &mut self.learned else {
+            return Ok(());
+        };
+        boundary.resolve(model).map_err(|e| source.locate(e))?;
+        let resolved = self.controller.contract.resolve(model);
+        resolved.map_err(|e| self.source.locate(e.inside("contract")))
     }
 
     /// The controller with its whole pre-condition: what was written by hand prunes, what was
@@ -125,11 +129,8 @@ pub fn build(
         let source = part.source.clone();
         pool.push(registry.build(&source, &part.controller(), model)?);
     }
-    let mut supervisor = Supervisor::new(&file.name, pool, &file.fallback);
-    if let Err(Error::Invalid { place, field, .. }) = &mut supervisor {
-        *place = source.place(field);
-    }
-    supervisor
+    pool::fallback(&pool, &file.fallback).map_err(|e| source.locate(e))?;
+    Supervisor::new(&file.name, pool, &file.fallback)
 }
 
 /// The controller files of a repertoire, in its order, as they stand: not built for any character.
@@ -159,54 +160,98 @@ fn parts(
     folder: Option<&Path>,
     registry: &Registry,
 ) -> Result<Vec<Part>> {
-    if file.controllers.len() > MOST_CONTROLLERS {
-        let problem = format!("a list of {}", file.controllers.len());
-        let accepted = format!("at most {MOST_CONTROLLERS} controllers");
-        return Err(source.invalid("controllers", "controllers", problem, accepted));
-    }
-    let shelf = Shelf {
-        source,
-        folder,
-        registry,
+    let count = file.controllers.len();
+    let few = check::count("controllers", count, 0..=MOST_CONTROLLERS, "controllers");
+    few.map_err(|e| source.locate(e))?;
+    let shelf = Shelf { folder, registry };
+    let find = |path: FieldPath, name: &str, kind| {
+        let found = shelf.find(name, kind);
+        found.map_err(|e| source.locate(e.inside(path)))
     };
-    let part = |entry: &Entry| match entry {
-        Entry::Here(controller) => Ok(Part {
-            source: source.clone(),
-            controller: ControllerFile::clone(controller),
-            learned: None,
-        }),
-        Entry::File(name) => Part::of(shelf.find(name, "controller file", LARGEST_TEXT)?),
-        Entry::Learned {
-            controller,
-            boundary,
-            confident,
-        } => {
-            let part = Part::of(shelf.find(controller, "controller file", LARGEST_TEXT)?)?;
-            let boundary = shelf.find(boundary, "boundary file", LARGEST_BOUNDARY)?;
-            part.with_boundary(boundary, *confident)
+    let part = |(i, entry): (usize, &Entry)| {
+        let here = FieldPath::from(("controllers", i));
+        match entry {
+            Entry::Here(controller) => Ok(Part {
+                source: source.part(here.then(FieldPath::inner())),
+                controller: ControllerFile::clone(controller),
+                learned: None,
+            }),
+            Entry::File(name) => {
+                let path = here.then(FieldPath::inner());
+                Part::of(find(path, name, Kind::Controller)?)
+            }
+            Entry::Learned {
+                controller,
+                boundary,
+                confident,
+            } => {
+                let path = here.clone().then("controller");
+                let part = Part::of(find(path, controller, Kind::Controller)?)?;
+                let path = here.then("boundary");
+                let boundary = find(path, boundary, Kind::Boundary)?;
+                part.with_boundary(boundary, *confident)
+            }
         }
     };
-    file.controllers.iter().map(part).collect()
+    file.controllers.iter().enumerate().map(part).collect()
+}
+
+/// A kind of file that a repertoire names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Controller,
+    Boundary,
+}
+
+impl Kind {
+    /// In messages.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Controller => "controller file, beside this one or shipped",
+            Self::Boundary => "boundary file, beside this one or shipped",
+        }
+    }
+
+    /// The largest that is read, bytes.
+    fn limit(self) -> u64 {
+        match self {
+            Self::Controller => LARGEST_TEXT,
+            Self::Boundary => LARGEST_BOUNDARY,
+        }
+    }
+
+    /// Whether a shipped file may be of this kind, by its name.
+    fn is(self, shipped: &str) -> bool {
+        match self {
+            Self::Boundary => shipped.ends_with(".boundary.ron"),
+            Self::Controller => {
+                !shipped.ends_with(".boundary.ron") && !shipped.starts_with("repertoires/")
+            }
+        }
+    }
 }
 
 /// Where the files of a repertoire are looked for: beside it, then among the shipped ones.
 struct Shelf<'a> {
-    source: &'a Source,
     folder: Option<&'a Path>,
     registry: &'a Registry,
 }
 
 impl Shelf<'_> {
-    /// A file of at most `limit` bytes.
-    fn find(&self, name: &str, kind: &'static str, limit: u64) -> Result<Source> {
+    /// The file of this name.
+    fn find(&self, name: &str, kind: Kind) -> Result<Source> {
+        let limit = kind.limit();
         let beside: Option<PathBuf> = self.folder.map(|f| f.join(name));
         match (beside, self.registry.file(name)) {
             (Some(path), _) if path.exists() => Source::read_up_to(&path, limit),
             (_, Some(shipped)) => Ok(shipped),
-            (Some(path), None) => Source::read_up_to(&path, limit),
-            (None, None) => {
-                let place = self.source.place(name);
-                Err(Error::unknown(kind, name, self.registry.files()).at(&place))
+            (Some(_), None) | (None, None) => {
+                let known = self.registry.files();
+                Err(Error::unknown(
+                    kind.name(),
+                    name,
+                    known.filter(|f| kind.is(f)),
+                ))
             }
         }
     }

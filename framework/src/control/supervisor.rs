@@ -80,7 +80,7 @@ impl Supervisor {
     /// [`Error::Invalid`] if the pool is empty, a name occurs twice, or the fallback is missing,
     /// has weight 0, or does not accept every state.
     pub fn new(name: &str, pool: Vec<Box<dyn Controller>>, fallback: &str) -> Result<Self> {
-        let place = pool::fallback(name, &pool, fallback)?;
+        let place = pool::fallback(&pool, fallback).map_err(|e| e.at(name))?;
         Ok(Self {
             contract: pool::contract(name, &pool),
             pool: pool.into_iter().map(Member::new).collect(),
@@ -109,6 +109,21 @@ impl Supervisor {
         pool[place] = controller;
         let fallback = self.name(self.fallback).to_owned();
         Self::new(&self.contract.name, pool, &fallback)
+    }
+
+    /// The pool of one controller and the fallback.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] if there is none of this name.
+    pub fn alone(&self, name: &str) -> Result<Self> {
+        let known = || self.controllers().map(|c| c.contract().name.as_str());
+        if !known().any(|n| n == name) {
+            return Err(Error::unknown("controller", name, known()));
+        }
+        let fallback = self.name(self.fallback).to_owned();
+        let kept = |c: &&dyn Controller| [name, &fallback].contains(&c.contract().name.as_str());
+        let pool = self.controllers().filter(kept).map(Controller::clone_box);
+        Self::new(&self.contract.name, pool.collect(), &fallback)
     }
 
     /// The pool.

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::events::bid::Bid;
 use crate::events::role::Role;
 use crate::events::unmet::Unmet;
+use crate::math::hypot;
 
 /// Something that happened, with the time in s and the character it happened to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -147,7 +148,7 @@ impl EventKind {
     pub fn label(&self) -> Option<String> {
         Some(match self {
             Self::Push { impulse, .. } => {
-                let amount = impulse[0].hypot(impulse[1]);
+                let amount = hypot(impulse[0], impulse[1]);
                 if amount.is_finite() {
                     format!("push {amount:.0} N·s")
                 } else {

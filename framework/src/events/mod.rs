@@ -11,3 +11,6 @@ pub use bid::{Bid, Refusal};
 pub use event::{Event, EventKind, Reason};
 pub use role::Role;
 pub use unmet::{Found, Unmet};
+
+#[cfg(test)]
+mod tests;

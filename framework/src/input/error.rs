@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::input::path::FieldPath;
+
 /// The result of the framework's fallible calls.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
@@ -39,12 +41,13 @@ pub enum Error {
         message: String,
     },
     /// A field's value is outside what is accepted.
-    #[error("{place}: {field} is {problem}; accepted: {accepted}")]
+    #[error("{}{field} is {problem}; accepted: {accepted}", before(place))]
     Invalid {
-        /// `file:line`, or the file alone.
+        /// `file:line:column` of the value; the origin alone of what is no file; empty until
+        /// [`Source::point`](crate::input::Source::point) has looked it up.
         place: String,
-        /// The field, with its path.
-        field: String,
+        /// The way to the value: from the outermost value of the file once the place is known.
+        field: FieldPath,
         /// The value found.
         problem: String,
         /// What would be accepted.
@@ -92,10 +95,10 @@ impl Error {
         }
     }
 
-    /// An [`Error::Invalid`].
+    /// An [`Error::Invalid`] of what stands in no file: `place` is what messages call it.
     pub fn invalid(
         place: impl Into<String>,
-        field: impl Into<String>,
+        field: impl Into<FieldPath>,
         problem: impl ToString,
         accepted: impl Into<String>,
     ) -> Self {
@@ -107,43 +110,98 @@ impl Error {
         }
     }
 
-    /// The same invalid field or unknown name, said to stand in the file or field `place`.
+    /// An [`Error::Invalid`] whose place is still to be looked up: `field` is the way from the value
+    /// that is being checked, and those who know where that stands add it ([`Self::inside`]).
+    pub fn refused(
+        field: impl Into<FieldPath>,
+        problem: impl ToString,
+        accepted: impl Into<String>,
+    ) -> Self {
+        Self::invalid("", field, problem, accepted)
+    }
+
+    /// The same refusal, said of a value inside `outer`. Unknown names, commands and files that
+    /// cannot be read become values that are refused. What has its place already stays.
+    ///
+    /// ```
+    /// # use aplomb_framework::input::Error;
+    /// let error = Error::unknown("link", "tosro", ["head", "torso"]).inside("link");
+    /// assert_eq!(
+    ///     error.inside(("events", 1)).to_string(),
+    ///     "events[1].link is 'tosro'; accepted: a link: head, torso (did you mean 'torso'?)",
+    /// );
+    /// ```
     #[must_use]
-    pub(crate) fn placed(self, place: &str) -> Self {
+    pub fn inside(self, outer: impl Into<FieldPath>) -> Self {
         match self {
             Self::Invalid {
+                place,
                 field,
                 problem,
                 accepted,
-                ..
-            } => Self::invalid(place, field, problem, accepted),
-            other => other.at(place),
+            } if place.is_empty() => Self::Invalid {
+                place,
+                field: outer.into().then(field),
+                problem,
+                accepted,
+            },
+            Self::Unknown {
+                kind,
+                name,
+                nearest,
+                known,
+            } => {
+                let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) {
+                    "an"
+                } else {
+                    "a"
+                };
+                let (known, nearest) = (listed(&known), suggestion(&nearest));
+                let accepted = format!("{article} {kind}: {known}{nearest}");
+                Self::refused(outer, format!("'{name}'"), accepted)
+            }
+            Self::Command { text, problem } => {
+                let problem = format!("'{text}' ({problem})");
+                Self::refused(outer, problem, "a command: name key=value …")
+            }
+            Self::Read { path, reason } => {
+                let problem = format!("'{}', which cannot be read: {reason}", path.display());
+                Self::refused(outer, problem, "a file that can be read")
+            }
+            other => other,
         }
     }
 
-    /// The same unknown name, said to stand in the file or field `place`.
+    /// The same refusal with a remark on the value that was found.
     #[must_use]
-    pub fn at(self, place: &str) -> Self {
-        match self {
-            Self::Unknown { .. } | Self::Command { .. } => Self::Invalid {
-                place: place.to_owned(),
-                field: match &self {
-                    Self::Unknown { kind, .. } => (*kind).to_owned(),
-                    _ => "command".to_owned(),
-                },
-                problem: match &self {
-                    Self::Unknown { name, .. } => format!("'{name}'"),
-                    other => other.to_string(),
-                },
-                accepted: match &self {
-                    Self::Unknown { nearest, known, .. } => {
-                        format!("{}{}", listed(known), suggestion(nearest))
-                    }
-                    _ => "name key=value …".to_owned(),
-                },
-            },
+    pub fn noted(mut self, remark: &str) -> Self {
+        if let Self::Invalid { problem, .. } = &mut self {
+            *problem = format!("{problem} ({remark})");
+        }
+        self
+    }
+
+    /// The same refusal of what stands in no file: `origin` is what messages call it.
+    #[must_use]
+    pub fn at(self, origin: &str) -> Self {
+        match self.inside("") {
+            Self::Invalid {
+                place,
+                field,
+                problem,
+                accepted,
+            } if place.is_empty() => Self::invalid(origin, field, problem, accepted),
             other => other,
         }
+    }
+}
+
+/// A place with what separates it from the message.
+fn before(place: &str) -> String {
+    if place.is_empty() {
+        String::new()
+    } else {
+        format!("{place}: ")
     }
 }
 

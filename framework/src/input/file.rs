@@ -7,17 +7,21 @@ use std::path::Path;
 use serde::de::DeserializeOwned;
 
 use crate::input::error::{Error, Result};
+use crate::input::locate;
+use crate::input::path::FieldPath;
 
 /// The largest text file (character, repertoire, scenario, controller) that is read: 1 MiB.
 pub const LARGEST_TEXT: u64 = 1 << 20;
 
 /// Text of a data file together with the name that error messages give it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Source {
     /// File name as the user gave it, or `built-in NAME`.
     pub origin: String,
     /// The text.
     pub text: String,
+    /// The value in the text that is spoken of.
+    inside: FieldPath,
 }
 
 impl Source {
@@ -27,7 +31,16 @@ impl Source {
         Self {
             origin: origin.into(),
             text: text.into(),
+            inside: FieldPath::default(),
         }
+    }
+
+    /// The same text, of which only the value at `path` is spoken of: where [`Self::locate`] begins.
+    #[must_use]
+    pub fn part(&self, path: impl Into<FieldPath>) -> Self {
+        let mut part = self.clone();
+        part.inside = part.inside.then(path);
+        part
     }
 
     /// Reads a regular UTF-8 text file of at most [`LARGEST_TEXT`] bytes.
@@ -58,13 +71,20 @@ impl Source {
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T> {
         options()
             .from_str(&self.text)
-            .map_err(|e| self.syntax(&e, (0, 0)))
+            .map_err(|e| self.spanned(&e, (0, 0)))
     }
 
-    /// A parser's complaint as an [`Error::Syntax`]; `offset` is the (line, column) at which the
-    /// parsed part begins in the whole text, both from 0.
+    /// The complaint of a parser that was given the text of the value at `path` alone, as an
+    /// [`Error::Syntax`] with its place in the whole text.
     #[must_use]
-    pub fn syntax(&self, error: &ron::error::SpannedError, offset: (usize, usize)) -> Error {
+    pub fn syntax(&self, error: &ron::error::SpannedError, path: impl Into<FieldPath>) -> Error {
+        let start = locate::start(&self.text, &self.inside.clone().then(path));
+        let (line, column) = locate::line_and_column(&self.text, start);
+        self.spanned(error, (line - 1, column - 1))
+    }
+
+    /// `offset` is the (line, column) at which the parsed part begins in the whole text, from 0.
+    fn spanned(&self, error: &ron::error::SpannedError, offset: (usize, usize)) -> Error {
         let start = error.span.start;
         Error::Syntax {
             origin: self.origin.clone(),
@@ -78,61 +98,39 @@ impl Source {
         }
     }
 
-    /// `file:line` of the first occurrence of `needle`, as a whole word if there is one; or the file
-    /// alone.
+    /// The same refusal with the place of the value that was refused: line and column of the value
+    /// itself, or of what it is missing in. What has its place already stays. Of a source without
+    /// text the place is its origin.
+    ///
+    /// ```
+    /// # use aplomb_framework::input::{Source, check};
+    /// let source = Source::new("x.ron", "(props: [(mass: 1), (mass: -2)])");
+    /// let error = check::within("mass", -2.0, 0.0..=9.0).unwrap_err().inside(("props", 1));
+    /// assert_eq!(
+    ///     source.locate(error).to_string(),
+    ///     "x.ron:1:28: props[1].mass is -2; accepted: 0 to 9",
+    /// );
+    /// ```
     #[must_use]
-    pub fn place(&self, needle: &str) -> String {
-        let found = self.words(needle).next();
-        self.line_at(found.or_else(|| self.text.find(needle)))
-    }
-
-    /// `file:line` of the field of this name that has this value, or of the first of this name.
-    #[must_use]
-    pub fn place_of(&self, field: &str, value: f64) -> String {
-        let has_value = |at: &usize| {
-            let after = self.text[at + field.len()..].trim_start_matches([' ', '"', ':']);
-            let end = after.find([',', ')', '}', '\n']).unwrap_or(after.len());
-            let number = after[..end].trim().parse::<f64>();
-            number.is_ok_and(|n| n == value || (n.is_nan() && value.is_nan()))
-        };
-        match self.words(field).find(has_value) {
-            Some(at) => self.line_at(Some(at)),
-            None => self.place(field),
+    pub fn locate(&self, error: Error) -> Error {
+        let error = error.inside(self.inside.clone());
+        match &error {
+            Error::Invalid { place, field, .. } if place.is_empty() => {
+                let place = self.place(field);
+                error.at(&place)
+            }
+            _ => error,
         }
     }
 
-    /// Where `needle` stands as a whole word.
-    fn words<'a>(&'a self, needle: &'a str) -> impl Iterator<Item = usize> + 'a {
-        let part_of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        self.text
-            .match_indices(needle)
-            .map(|(at, _)| at)
-            .filter(move |at| {
-                !self.text[..*at].ends_with(part_of_name)
-                    && !self.text[at + needle.len()..].starts_with(part_of_name)
-            })
-    }
-
-    fn line_at(&self, at: Option<usize>) -> String {
-        match at {
-            Some(at) => format!(
-                "{}:{}",
-                self.origin,
-                1 + self.text[..at].matches('\n').count()
-            ),
-            None => self.origin.clone(),
+    /// `file:line:column` of a value.
+    fn place(&self, path: &FieldPath) -> String {
+        if self.text.is_empty() {
+            return self.origin.clone();
         }
-    }
-
-    /// An [`Error::Invalid`] at the first occurrence of `needle`.
-    pub fn invalid(
-        &self,
-        needle: &str,
-        field: impl Into<String>,
-        problem: impl ToString,
-        accepted: impl Into<String>,
-    ) -> Error {
-        Error::invalid(self.place(needle), field, problem, accepted)
+        let offset = locate::locate(&self.text, path);
+        let (line, column) = locate::line_and_column(&self.text, offset);
+        format!("{}:{line}:{column}", self.origin)
     }
 }
 
@@ -171,6 +169,18 @@ pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>> {
 /// # Errors
 /// [`Error::Write`]; an existing file is then as it was.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
+    stream_atomically(path, |file| file.write_all(bytes))
+}
+
+/// As [`write_atomically`], for what is too long to be held in memory: `write` gets the temporary
+/// file, unbuffered.
+///
+/// # Errors
+/// [`Error::Write`], also with what `write` fails with; an existing file is then as it was.
+pub fn stream_atomically(
+    path: &Path,
+    write: impl FnOnce(&mut File) -> std::io::Result<()>,
+) -> Result<()> {
     let fail = |e: std::io::Error| Error::Write {
         path: path.to_owned(),
         reason: e.to_string(),
@@ -185,7 +195,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
         .suffix(".partial")
         .tempfile_in(folder)
         .map_err(fail)?;
-    temporary.write_all(bytes).map_err(fail)?;
+    write(temporary.as_file_mut()).map_err(fail)?;
     readable_by_all(temporary.as_file()).map_err(fail)?;
     temporary.persist(path).map_err(|e| fail(e.error))?;
     Ok(())
@@ -218,6 +228,20 @@ mod tests {
             std::fs::read_dir(path.parent().unwrap()).unwrap().count(),
             1
         );
+    }
+
+    #[test]
+    fn a_stream_that_fails_leaves_the_old_file_and_no_temporary() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x.txt");
+        write_atomically(&path, b"one").unwrap();
+        let failed = stream_atomically(&path, |file| {
+            file.write_all(b"half")?;
+            Err(std::io::Error::other("no more room"))
+        });
+        assert!(failed.unwrap_err().to_string().contains("no more room"));
+        assert_eq!(std::fs::read(&path).unwrap(), b"one");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
     #[test]

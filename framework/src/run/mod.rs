@@ -3,6 +3,7 @@
 //! scenario → [`Simulation`] → events, [`Outcome`], [`Trajectory`].
 
 mod actor;
+mod export;
 mod recording;
 mod schedule;
 mod simulation;
@@ -11,6 +12,7 @@ mod trajectory;
 mod watch;
 
 pub use actor::{Actor, Outcome, STANDING_FOR};
+pub use export::{Datum, Export};
 pub use simulation::{Simulation, tick};
 pub use start::start_state;
 pub use trajectory::{Cast, Digest, Header, Moment, Trajectory, push_character, row_width};

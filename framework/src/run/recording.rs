@@ -21,7 +21,7 @@ use crate::input::{Error, Result, Source, read_bounded, write_atomically};
 use crate::run::trajectory::{Cast, Header, Trajectory};
 
 const MAGIC: &[u8; 8] = b"APLOMB-T";
-const VERSION: u16 = 3;
+const VERSION: u16 = 4;
 const LARGEST_FILE: u64 = 1 << 30;
 const LARGEST_CONTENT: u64 = 4 << 30;
 

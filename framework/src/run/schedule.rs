@@ -4,8 +4,8 @@
 
 use crate::character::Model;
 use crate::control::Supervisor;
-use crate::input::Result;
-use crate::scenario::{Scenario, ScheduledInput};
+use crate::input::{Error, Result};
+use crate::scenario::{Number, Scenario, ScheduledInput};
 
 /// What is done to a character.
 #[derive(Debug, Clone)]
@@ -38,13 +38,15 @@ impl TimedInput {
     /// What is scheduled by the scenario to a character of this model and supervisor.
     ///
     /// # Errors
-    /// An unknown link or parameter, a malformed command or one that the supervisor does not answer to.
+    /// An unknown link or parameter, a malformed command or one that the supervisor does not answer
+    /// to: by the way from the event.
     pub(crate) fn new(
         event: &ScheduledInput,
         scenario: &Scenario,
         model: &Model,
         supervisor: &Supervisor,
     ) -> Result<Self> {
+        let number = |field: &str, n: &Number| scenario.number(n).map_err(|e| e.inside(field));
         match event {
             ScheduledInput::Push {
                 at,
@@ -53,11 +55,11 @@ impl TimedInput {
                 over,
                 character,
             } => Ok(Self {
-                time: scenario.number(at)?,
+                time: number("at", at)?,
                 character: *character,
                 input: Input::Push {
-                    link: model.link_index(link)?,
-                    impulse: scenario.number(impulse)?,
+                    link: model.link_index(link).map_err(|e| e.inside("link"))?,
+                    impulse: number("impulse", impulse)?,
                     over: *over,
                 },
             }),
@@ -67,10 +69,11 @@ impl TimedInput {
                 character,
             } => {
                 // A trial on a clone: commands that nobody answers to are found before the run.
-                let text = scenario.filled(text)?;
-                supervisor.clone().command(&text)?;
+                let of = |e: Error| e.inside("text");
+                let text = scenario.filled(text).map_err(of)?;
+                supervisor.clone().command(&text).map_err(of)?;
                 Ok(Self {
-                    time: scenario.number(at)?,
+                    time: number("at", at)?,
                     character: *character,
                     input: Input::Command(text),
                 })
@@ -84,7 +87,7 @@ impl TimedInput {
 pub(crate) struct Schedule(Vec<TimedInput>);
 
 impl Schedule {
-    /// Adds a input. It goes before its equals, which are then taken from the end first: first
+    /// Adds an input. It goes before its equals, which are then taken from the end first: first
     /// scheduled, first done.
     pub(crate) fn add(&mut self, timed: TimedInput) {
         let place = self.0.partition_point(|t| t.time > timed.time);

@@ -78,10 +78,12 @@ impl Simulation {
     /// Unreadable or invalid characters and repertoires; links, joints or commands that they lack.
     pub fn new(scenario: &Scenario, registry: &Registry) -> Result<Self> {
         let mut cast = Vec::with_capacity(scenario.characters.len());
-        for role in &scenario.characters {
-            let model = Model::load(&role.character)?;
-            let repertoire = role.repertoire(&model);
-            let supervisor = repertoire::load(repertoire, registry, &model)?;
+        for (i, role) in scenario.characters.iter().enumerate() {
+            let of = |field| move |e: Error| e.inside(field).inside(("characters", i));
+            let model = Model::load(&role.character);
+            let model = model.map_err(|e| scenario.locate(of("character")(e)))?;
+            let supervisor = repertoire::load(role.repertoire(&model), registry, &model);
+            let supervisor = supervisor.map_err(|e| scenario.locate(of("repertoire")(e)))?;
             cast.push((model, supervisor));
         }
         Self::with_cast(scenario, cast)
@@ -106,15 +108,19 @@ impl Simulation {
         }
         let mut world = World::new(scenario.settings);
         let mut actors = Vec::with_capacity(cast.len());
-        for (role, (model, supervisor)) in scenario.characters.iter().zip(cast) {
-            world.spawn(&model, &start_state(&model, &role.start)?);
+        let at =
+            |list: &'static str, i: usize| move |e: Error| scenario.locate(e.inside((list, i)));
+        let roles = scenario.characters.iter().enumerate();
+        for ((i, role), (model, supervisor)) in roles.zip(cast) {
+            let start = start_state(&model, &role.start).map_err(|e| e.inside("start"));
+            world.spawn(&model, &start.map_err(at("characters", i))?);
             actors.push(Actor::new(supervisor, &model));
         }
-        for prop in &scenario.props {
-            world.add_prop(&scenario.prop(prop)?);
+        for (i, prop) in scenario.props.iter().enumerate() {
+            world.add_prop(&scenario.prop(prop).map_err(at("props", i))?);
         }
-        for hinge in &scenario.joints {
-            world.add_hinge(&scenario.hinge(hinge)?);
+        for (i, hinge) in scenario.joints.iter().enumerate() {
+            world.add_hinge(&scenario.hinge(hinge).map_err(at("joints", i))?);
         }
         world.detect_contacts();
         for character in 0..actors.len() {
@@ -131,12 +137,12 @@ impl Simulation {
             watches: Vec::new(),
         };
         for (i, expectation) in scenario.expect.iter().enumerate() {
-            let watch = Watch::new(expectation, scenario, &simulation.world)
-                .map_err(|e| e.at(&format!("{}: expect[{i}]", scenario.name)))?;
-            simulation.watches.extend(watch);
+            let watch = Watch::new(expectation, scenario, &simulation.world);
+            simulation.watches.extend(watch.map_err(at("expect", i))?);
         }
-        for event in &scenario.events {
-            simulation.schedule(scenario, event)?;
+        for (i, event) in scenario.events.iter().enumerate() {
+            let scheduled = simulation.schedule(scenario, event);
+            scheduled.map_err(at("events", i))?;
         }
         Ok(simulation)
     }
@@ -144,7 +150,7 @@ impl Simulation {
     /// Adds a push or a command to what will happen.
     ///
     /// # Errors
-    /// An unknown link, a malformed command or one that nobody answers to.
+    /// An unknown link, a malformed command or one that nobody answers to: by the way from the event.
     pub fn schedule(&mut self, scenario: &Scenario, event: &ScheduledInput) -> Result<()> {
         let character = event.character();
         let supervisor = &self.actors[character].supervisor;

@@ -4,8 +4,9 @@
 //! instead, in words.
 
 use crate::control::Condition;
-use crate::input::Result;
-use crate::scenario::{Expectation, Quantity, Scenario};
+use crate::input::{Error, Result};
+use crate::math::hypot;
+use crate::scenario::{Expectation, Number, Quantity, Scenario};
 use crate::sensing::Sensors;
 use crate::world::World;
 
@@ -59,7 +60,7 @@ impl Watch {
     /// None for an expectation that is told from the end and the events.
     ///
     /// # Errors
-    /// Unknown parameters, joints and props.
+    /// Unknown parameters, joints and props, by the way from the expectation.
     pub(crate) fn new(
         expectation: &Expectation,
         scenario: &Scenario,
@@ -67,13 +68,17 @@ impl Watch {
     ) -> Result<Option<Self>> {
         let resolved = |condition: &Condition, character: usize| {
             let mut condition = condition.clone();
-            condition.resolve(world.characters()[character].body.model())?;
-            condition.each_feature(&mut |f| match f.prop() {
-                Some(prop) => scenario.prop_index(prop).map(drop),
-                None => Ok(()),
-            })?;
-            Ok::<_, crate::Error>(condition)
+            let model = world.characters()[character].body.model();
+            let resolved = condition.resolve(model).and_then(|()| {
+                condition.each_feature(&mut |f| match f.prop() {
+                    Some(prop) => scenario.prop_index(prop).map(drop),
+                    None => Ok(()),
+                })
+            });
+            resolved.map_err(|e| e.inside("condition"))?;
+            Ok::<_, Error>(condition)
         };
+        let number = |field: &str, n: &Number| scenario.number(n).map_err(|e| e.inside(field));
         let asked = match expectation {
             Expectation::Standing { .. }
             | Expectation::Active { .. }
@@ -87,7 +92,7 @@ impl Watch {
                 character,
             } => Asked::Holds {
                 condition: resolved(condition, *character)?,
-                at: scenario.number(at)?,
+                at: number("at", at)?,
                 character: *character,
             },
             Expectation::Reaches {
@@ -96,7 +101,7 @@ impl Watch {
                 character,
             } => Asked::Reaches {
                 condition: resolved(condition, *character)?,
-                before: scenario.number(before)?,
+                before: number("before", before)?,
                 character: *character,
             },
             Expectation::Prop {
@@ -106,10 +111,10 @@ impl Watch {
                 max,
                 at,
             } => Asked::Prop {
-                prop: scenario.prop_index(name)?,
+                prop: scenario.prop_index(name).map_err(|e| e.inside("name"))?,
                 what: *what,
-                bounds: [scenario.number(min)?, scenario.number(max)?],
-                at: scenario.number(at)?,
+                bounds: [number("min", min)?, number("max", max)?],
+                at: number("at", at)?,
             },
         };
         Ok(Some(Self {
@@ -223,7 +228,7 @@ impl Watch {
 
 /// What keeps a character from being balanced now.
 fn unbalanced(now: &Sensors) -> Option<String> {
-    let speed = now.com_velocity[0].hypot(now.com_velocity[1]);
+    let speed = hypot(now.com_velocity[0], now.com_velocity[1]);
     let com = now.com[0];
     match now.base_of_support {
         None => Some("no foot supports it at the end".to_owned()),

@@ -9,10 +9,11 @@ use std::path::Path;
 use serde::Deserialize;
 
 use crate::character::Model;
-use crate::input::{Error, Result, Source};
+use crate::input::{Error, FieldPath, Result, Source, check};
 use crate::scenario::expectation::Expectation;
 use crate::scenario::limits::PUSH_DURATION;
 use crate::scenario::number::{Adjustable, Number};
+use crate::scenario::origin::Origin;
 use crate::scenario::props::{HingeEntry, PropEntry};
 use crate::world::Settings;
 
@@ -139,6 +140,9 @@ pub struct Scenario {
     /// Numbers that can be set from outside, with their defaults and what they may be set to.
     #[serde(default)]
     pub parameters: BTreeMap<String, Adjustable>,
+    /// Where it was read, for what is found only when it runs.
+    #[serde(skip)]
+    pub origin: Origin,
 }
 
 impl Scenario {
@@ -160,6 +164,7 @@ impl Scenario {
             events: Vec::new(),
             expect: Vec::new(),
             parameters: BTreeMap::new(),
+            origin: Origin::default(),
         }
     }
 
@@ -176,9 +181,17 @@ impl Scenario {
     /// # Errors
     /// As [`Self::read`].
     pub fn parse(source: &Source) -> Result<Self> {
-        let scenario: Self = source.parse()?;
-        scenario.validate(source)?;
+        let mut scenario: Self = source.parse()?;
+        scenario.origin = Origin::new(source);
+        scenario.validate().map_err(|e| source.locate(e))?;
         Ok(scenario)
+    }
+
+    /// The same refusal of one of the scenario's values with its line and column; of a scenario that
+    /// was not read from a file, with the scenario's name.
+    #[must_use]
+    pub fn locate(&self, error: Error) -> Error {
+        self.origin.locate(error, &self.name)
     }
 
     /// Sets a parameter: one that the scenario declares, or `friction`, `gravity`, `torque`, `mass`
@@ -189,7 +202,12 @@ impl Scenario {
     /// the scenario is then as it was.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         let mut changed = self.clone();
-        let own = changed.parameters.get_mut(name).map(|p| &mut p.value);
+        let own = changed.parameters.get_mut(name);
+        if let Some(p) = &own {
+            let field = FieldPath::from("parameters").then(FieldPath::entry(name));
+            check::within(field, value, p.min..=p.max).map_err(|e| e.at(&self.name))?;
+        }
+        let own = own.map(|p| &mut p.value);
         let settings = &mut changed.settings;
         *match name {
             _ if own.is_some() => own,
@@ -205,7 +223,7 @@ impl Scenario {
             let known = own.chain(["friction", "gravity", "torque", "mass", "duration"]);
             Error::unknown("parameter", name, known)
         })? = value;
-        changed.validate(&Source::new(self.name.clone(), ""))?;
+        changed.validate().map_err(|e| e.at(&self.name))?;
         *self = changed;
         Ok(())
     }

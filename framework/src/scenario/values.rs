@@ -2,8 +2,10 @@
 //!
 //! [`Number`], parameters → values.
 
+use std::ops::RangeInclusive;
+
 use crate::character::Point;
-use crate::input::{Error, Result};
+use crate::input::{Error, Result, check};
 use crate::scenario::file::Scenario;
 use crate::scenario::number::Number;
 
@@ -35,7 +37,32 @@ impl Scenario {
     /// # Errors
     /// As [`Self::number`].
     pub fn point(&self, [x, y]: &[Number; 2]) -> Result<Point> {
-        Ok([self.number(x)?, self.number(y)?])
+        let of = |i: usize| move |e: Error| e.inside(i);
+        let (x, y) = (self.number(x).map_err(of(0)), self.number(y).map_err(of(1)));
+        Ok([x?, y?])
+    }
+
+    /// Checks the value of a number, be it written out or a parameter's.
+    pub(super) fn check_number(
+        &self,
+        field: &str,
+        number: &Number,
+        accepted: RangeInclusive<f64>,
+    ) -> Result<()> {
+        let value = self.number(number).map_err(|e| e.inside(field))?;
+        check::within(field, value, accepted).map_err(|e| match number {
+            Number::Value(_) => e,
+            Number::Parameter(name, _) => e.noted(&format!("by the parameter '{name}'")),
+        })
+    }
+
+    /// Checks the values of two numbers: at most `most` either way.
+    pub(super) fn check_point(&self, field: &str, point: &[Number; 2], most: f64) -> Result<()> {
+        for (i, number) in point.iter().enumerate() {
+            let coordinate = self.check_number("", number, -most..=most);
+            coordinate.map_err(|e| e.inside((field, i)))?;
+        }
+        Ok(())
     }
 
     /// A command's text with the values of parameters in the places of their names: `{depth}`,

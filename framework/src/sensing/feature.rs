@@ -8,7 +8,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use crate::character::Model;
-use crate::input::{Error, Result};
+use crate::input::{Error, Result, nearest};
 use crate::sensing::sensed_prop::PROP_SCALARS;
 use crate::sensing::sensors::Sensors;
 use crate::sensing::vocabulary::{NONE, SCALARS};
@@ -55,11 +55,15 @@ impl Feature {
         }
     }
 
-    /// Why it has no value, where it has none.
+    /// Why it has no value now, where it has none; the nearest name if it names a prop that is not
+    /// there.
     #[must_use]
-    pub fn absence(&self) -> String {
+    pub fn absence(&self, now: &Sensors) -> String {
         match &self.0 {
-            Kind::Prop { prop, .. } => format!("there is no prop '{prop}'"),
+            Kind::Prop { prop, .. } => match nearest(prop, now.props.iter().map(|p| &*p.name)) {
+                Some(near) => format!("there is no prop '{prop}'; did you mean '{near}'?"),
+                None => format!("there is no prop '{prop}'"),
+            },
             Kind::Angle { joint, .. } | Kind::Velocity { joint, .. } => {
                 format!("there is no joint '{joint}'")
             }
@@ -217,6 +221,19 @@ mod tests {
             now.props.clear();
         }
         assert!("prop_hold.ball".parse::<Feature>().is_err());
+    }
+
+    #[test]
+    fn a_misspelt_prop_is_told_with_the_nearest() {
+        let mut now = Sensors::new(&Model::load("humanoid").unwrap(), 9.81);
+        let feature: Feature = "prop_ahead.bal".parse().unwrap();
+        assert_eq!(feature.absence(&now), "there is no prop 'bal'");
+        for name in ["crate", "ball"] {
+            now.props
+                .push(crate::sensing::SensedProp::new(&name.into()));
+        }
+        let told = "there is no prop 'bal'; did you mean 'ball'?";
+        assert_eq!(feature.absence(&now), told);
     }
 
     #[test]

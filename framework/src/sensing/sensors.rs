@@ -7,6 +7,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::character::{Kinematics, Model, Point, State, wrapped};
+use crate::math::hypot;
 use crate::sensing::sensed_prop::SensedProp;
 
 /// How the character holds itself: from what supports it (a ball against the chest does not) and
@@ -212,7 +213,7 @@ impl Sensors {
         let over = self
             .base_of_support
             .is_some_and(|[rear, front]| self.com[0] >= rear && self.com[0] <= front);
-        let speed = self.com_velocity[0].hypot(self.com_velocity[1]);
+        let speed = hypot(self.com_velocity[0], self.com_velocity[1]);
         over && self.only_feet_support()
             && self.com_height() > 0.9 * self.model.standing_com()[1]
             && speed < 0.1

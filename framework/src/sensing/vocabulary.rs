@@ -2,6 +2,7 @@
 //!
 //! sensors → numbers.
 
+use crate::math::hypot;
 use crate::sensing::sensors::Sensors;
 
 /// An entry of the vocabulary.
@@ -73,7 +74,7 @@ pub(crate) const SCALARS: &[Scalar] = &[
         |s| s.com_velocity[1],
     ),
     scalar("com_speed", "m/s", "speed of the centre of mass", |s| {
-        s.com_velocity[0].hypot(s.com_velocity[1])
+        hypot(s.com_velocity[0], s.com_velocity[1])
     }),
     scalar(
         "capture_offset",

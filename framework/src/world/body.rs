@@ -10,6 +10,7 @@ use std::sync::Arc;
 use rapier2d::prelude::*;
 
 use crate::character::{Kinematics, Model, Point, Shape, State, turned, wrapped};
+use crate::math::{hypot, sin_cos};
 use crate::sensing::{FootContact, LinkContact, Sensors};
 use crate::world::contact::{each_point, other};
 
@@ -170,7 +171,7 @@ impl Body {
                         return;
                     }
                     let at_knee = knee
-                        .is_some_and(|k| (p.in_body[0] - k[0]).hypot(p.in_body[1] - k[1]) < KNEE);
+                        .is_some_and(|k| hypot(p.in_body[0] - k[0], p.in_body[1] - k[1]) < KNEE);
                     contact.knee = at_knee && (contact.knee || !contact.supported);
                     contact.supported = true;
                     lowest = lowest.min(p.at[1]);
@@ -219,7 +220,7 @@ impl Body {
         let origin = root.translation();
         let (v, w) = (root.linvel(), f64::from(root.angvel()));
         // The engine's own world centre of mass is not yet known before the first step.
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = sin_cos(angle);
         let arm = turned([cos, sin], self.model.links[0].com);
         state.q[0] = f64::from(origin.x);
         state.q[1] = f64::from(origin.y);

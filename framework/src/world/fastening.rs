@@ -2,6 +2,7 @@
 
 use rapier2d::prelude::*;
 
+use crate::math::hypot;
 use crate::world::settings::Settings;
 
 /// Time constant of the low-pass filter through which a load is judged, s.
@@ -62,7 +63,7 @@ impl Fastening {
         {
             *load += share * (f64::from(impulse) / over - *load);
         }
-        self.load[0].hypot(self.load[1]) <= self.strength
+        hypot(self.load[0], self.load[1]) <= self.strength
     }
 
     /// Takes the hinge out of the engine.

@@ -12,6 +12,7 @@
 use rapier2d::prelude::*;
 
 use crate::character::Model;
+use crate::math::hypot;
 use crate::world::body::Body;
 use crate::world::contact::{each_point, other};
 use crate::world::fastening::Fastening;
@@ -113,7 +114,7 @@ impl Grips {
                 // Forces are of no interest here but for whether there are any.
                 each_point(pair, own, colliders, 1.0, |p| {
                     let [x, y] = [p.in_body[0] - hand.tip[0], p.in_body[1] - hand.tip[1]];
-                    let away = x.hypot(y);
+                    let away = hypot(x, y);
                     if p.touches() && away <= nearest.map_or(REACH, |n| n.0) {
                         nearest = Some((away, prop, p.in_body));
                     }

@@ -1,6 +1,10 @@
 //! The equation of motion of the humanoid and of random trees: against an independent formulation,
 //! against Lagrange's equations, against finite differences, and by what a free tree conserves.
 #![allow(clippy::unwrap_used)]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the standard library's functions"
+)]
 
 #[path = "../common/reference.rs"]
 mod reference;

@@ -89,9 +89,8 @@ fn bad_boundaries_name_line_field_and_remedy() {
         check_refusal(&refusal, &line, message, to);
     };
     let digest = Model::load("humanoid").unwrap().digest();
-    let twice = "features is 'com_velocity_x' a second time";
-    let nan = "mean[1] is NaN; accepted: finite";
-    let positive = "finite and above 0";
+    let twice = "features[1] is 'com_velocity_x' a second time";
+    let nan = "mean[1] is NaN; accepted: a finite number";
     for (from, to, message) in [
         (
             "\"humanoid\"",
@@ -112,7 +111,7 @@ fn bad_boundaries_name_line_field_and_remedy() {
         (
             "velocity.knee_l",
             "velocity.tail",
-            "joint is 'tail'; accepted: waist",
+            "features[1] is 'tail'; accepted: a joint: waist",
         ),
         (
             "velocity.knee_l",
@@ -161,8 +160,12 @@ fn bad_boundaries_name_line_field_and_remedy() {
         check(&with_digest(POLYNOMIAL), from, to, message);
     }
     for (from, to, message) in [
-        ("gamma: 0.5", "gamma: 0.0", positive),
-        ("gamma: 0.5", "gamma: NaN", positive),
+        (
+            "gamma: 0.5",
+            "gamma: 0.0",
+            "decision.gamma is 0; accepted: above 0",
+        ),
+        ("gamma: 0.5", "gamma: NaN", "decision.gamma is NaN"),
         (
             "support: [[0.0, 0.0]",
             "support: [[0.0]",
@@ -194,7 +197,7 @@ fn a_calibration_that_cannot_be_is_refused() {
         let text = changed(&with_digest(POLYNOMIAL), from, to);
         let refusal = load(folder.path(), &text, LEARNED).unwrap_err();
         let origin = folder.path().join("wave.boundary.ron");
-        let place = line_of(origin.to_str().unwrap(), &text, "calibration");
+        let place = line_of(origin.to_str().unwrap(), &text, to);
         check_refusal(&refusal, &place, message, to);
     }
 }
@@ -230,13 +233,12 @@ fn too_large_and_truncated_boundaries_are_refused() {
     );
     let missing = LEARNED.replace("wave.boundary", "none");
     let refusal = load(folder.path(), &whole, &missing).unwrap_err();
-    assert!(
-        refusal.starts_with("cannot read") && refusal.contains("none.ron"),
-        "{refusal}"
-    );
+    let place = format!("{}:2:", folder.path().join("p.ron").display());
+    let message = "controllers[0].boundary is 'none.ron'; accepted: a boundary file";
+    check_refusal(&refusal, &place, message, &missing);
 }
 
-/// Written into a controller's contract, it is told where that controller stands.
+/// Written into a controller's contract, it is told where it stands in there.
 #[test]
 fn a_boundary_in_place_is_checked_as_well() {
     let wave = |boundary: &str| {
@@ -254,7 +256,9 @@ fn a_boundary_in_place_is_checked_as_well() {
     assert!(wave(&text).is_ok());
     let refusal = wave(&changed(&text, "degree: 1", "degree: 2")).unwrap_err();
     assert!(
-        refusal.starts_with("p.ron:5: wave: Svm(controller: \"wave\"): decision.coefficients"),
+        refusal.starts_with(
+            "p.ron:16:23: controllers[0].contract.precondition.decision.coefficients is a list of 3"
+        ),
         "{refusal}"
     );
     let refusal = wave(&changed(&text, "\"humanoid\"", "\"sumo\"")).unwrap_err();
@@ -317,7 +321,7 @@ fn a_boundary_is_shipped_or_read_alone() {
     assert_eq!(bid(&build(pool).unwrap(), 0.5), (8.0, None));
     let refusal = build(&pool.replace("wave.boundary", "wvae.boundary")).unwrap_err();
     assert!(
-        refusal.starts_with("p.ron:2: boundary file is 'learned/wvae")
+        refusal.starts_with("p.ron:2:50: controllers[0].boundary is 'learned/wvae")
             && refusal.contains("did you mean"),
         "{refusal}"
     );

@@ -9,7 +9,7 @@ fn characters_have_their_mass_and_degrees_of_freedom() {
         ("lion", 180.0, 25),
         ("sumo", 180.0, 15),
     ];
-    assert_eq!(told.len(), Model::BUILT_IN.len());
+    assert_eq!(told.len(), Model::built_in().len());
     for (name, mass, dof) in told {
         let model = Model::load(name).unwrap();
         assert_eq!(model.name, name);
@@ -21,7 +21,7 @@ fn characters_have_their_mass_and_degrees_of_freedom() {
 
 #[test]
 fn both_sides_of_a_character_are_alike() {
-    for (name, _) in Model::BUILT_IN {
+    for (name, _) in Model::built_in() {
         let model = Model::load(name).unwrap();
         for (j, joint) in model.joints().enumerate() {
             let other = &model.links[model.mirrored_joint(j) + 1];

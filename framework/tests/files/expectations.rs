@@ -108,11 +108,11 @@ fn bad_expectations_are_refused() {
         ("Holds(condition: Always, at: -1)", "expect[0].at is -1"),
         (
             "Holds(condition: Always, at: \"when\")",
-            "parameter is 'when'",
+            "shove.ron:16:43: expect[0].at is 'when'; accepted: a parameter: impulse",
         ),
         (
             "Holds(condition: Within(feature: \"angle.nee_r\"), at: 0)",
-            "shove: expect[0]: joint is 'nee_r'",
+            "expect[0].condition.feature is 'nee_r'; accepted: a joint: ",
         ),
         (
             "Reaches(condition: Not(Within(feature: \"prop_ahead.crat\")))",

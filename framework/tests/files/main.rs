@@ -1,5 +1,9 @@
 //! Bad files are refused with place, field and what would be accepted; good ones round trip.
 #![allow(clippy::unwrap_used)]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the standard library's functions"
+)]
 
 #[allow(dead_code, reason = "each test uses a part of it")]
 #[path = "../common/mod.rs"]

@@ -79,8 +79,16 @@ fn values_out_of_bounds_are_refused_in_the_file_and_when_set() {
             0.5,
             "parameters.height is 0.5; accepted: 1 to 1000000",
         ),
-        ("height", 2e3, "props.ball.position is (3, 2000)"),
-        ("hold", -1.0, "grip is -1; accepted: 0 to 1000000"),
+        (
+            "height",
+            2e3,
+            "props[0].position[1] is 2000 (by the parameter 'height')",
+        ),
+        (
+            "hold",
+            -1.0,
+            "props[0].grip is -1 (by the parameter 'hold')",
+        ),
         ("hold", 0.0, "joints[0].breaks is 0"),
         ("sped", 1.0, "did you mean 'speed'"),
     ] {
@@ -94,7 +102,7 @@ fn values_out_of_bounds_are_refused_in_the_file_and_when_set() {
             "default: 7",
             "default: 70",
             "70",
-            "parameters.mass is 70; accepted: 0.5 to 20",
+            "parameters.mass.default is 70; accepted: 0.5 to 20",
         ),
         ("min: 0.5, max", "min: 5, most", "most", "`most`"),
         (
@@ -119,20 +127,20 @@ fn values_out_of_bounds_are_refused_in_the_file_and_when_set() {
         (
             "mass: \"mass\"",
             "mass: \"-mass\"",
-            "\"mass\"",
-            "mass is -7; accepted: 0 to 1000000",
+            "\"-mass\"",
+            "mass is -7 (by the parameter 'mass'); accepted: 0 to 1000000",
         ),
         (
             "\"-speed\"",
             "\"-sped\"",
-            "(name: \"ball",
+            "\"-sped\"",
             "did you mean 'speed'",
         ),
         (
             "\"speed\": 6",
             "\"speed\": 1001",
-            "ball",
-            "props.ball.velocity is (-1001, 0.5)",
+            "\"-speed\"",
+            "props[0].velocity[0] is -1001 (by the parameter 'speed')",
         ),
         (
             "to: \"beam\"",
@@ -140,34 +148,35 @@ fn values_out_of_bounds_are_refused_in_the_file_and_when_set() {
             "beem",
             "did you mean 'beam'",
         ),
-        ("to: \"beam\"", "to: \"bag\"", "joint", "'bag' itself"),
-        ("mass: 30.0", "mass: 0", "prop:", "fixed like the prop"),
+        ("to: \"beam\"", "to: \"bag\"", "to: \"bag\"", "'bag' itself"),
+        (
+            "mass: 30.0",
+            "mass: 0",
+            "to: \"beam\"",
+            "fixed like the prop",
+        ),
         (
             "(0, -0.8)",
             "(0, -0.7)",
-            "prop:",
-            "joints.bag.to_at is (1, 1.8) in the world; accepted: at most 0.05 m",
+            "(0, -0.7)",
+            "joints[0].to_at is (1, 1.8) in the world; accepted: at most 0.05 m",
         ),
         (
             "at: (0, 0.4)",
             "at: (0, NaN)",
-            "bag",
-            "joints[0].at is (0, NaN)",
+            "(0, NaN)",
+            "joints[0].at[1] is NaN",
         ),
         (
             "name: \"beam\"",
             "name: \"bag\"",
-            "prop:",
+            "(prop: \"bag\"",
             "the name of several",
         ),
     ] {
         let text = changed(THROWN, from, to);
         let refusal = simulation(&text).unwrap_err().to_string();
-        let place = if ["joint", "prop:"].contains(&line) {
-            "shove.ron:".to_owned()
-        } else {
-            line_of("shove.ron", &text, line)
-        };
+        let place = line_of("shove.ron", &text, line);
         check_refusal(&refusal, &place, message, to);
     }
 }

@@ -26,7 +26,7 @@ fn bad_repertoires_name_line_and_remedy() {
         (
             "kind: \"puppet\"",
             "kind: \"pupet\"",
-            "\"wave\"",
+            "\"pupet\"",
             "did you mean 'puppet'",
         ),
         ("weight: 3", "wieght: 3", "wieght", "`wieght`"),
@@ -39,7 +39,7 @@ fn bad_repertoires_name_line_and_remedy() {
         (
             "angle.knee_r",
             "angle.knee",
-            "\"wave\"",
+            "\"angle.knee\"",
             "did you mean 'knee_",
         ),
         (
@@ -48,27 +48,37 @@ fn bad_repertoires_name_line_and_remedy() {
             "com_hieght",
             "did you mean 'com_height'",
         ),
-        ("min: -0.5", "min: 0.5", "\"wave\"", "min ≤ max"),
-        ("min: -0.5", "min: NaN", "\"wave\"", "min ≤ max"),
+        (
+            "min: -0.5",
+            "min: 0.5",
+            "min: 0.5",
+            "min ≤ max, which is 0.1",
+        ),
+        (
+            "min: -0.5",
+            "min: NaN",
+            "min: NaN",
+            "precondition.min is NaN",
+        ),
         ("Within(", "Witin(", "Witin", "Witin"),
         ("name: \"wave\"", "name: \"wave it\"", "wave it", "letters"),
         (
             "name: \"wave\"",
             "name: \"rest\"",
-            "controllers",
-            "a second time",
+            "contract: (name: \"rest\"",
+            "controllers[1].contract.name is 'rest' a second time",
         ),
         (
             "weight: 3",
             "weight: 3, hold: -1.0",
-            "\"wave\"",
-            "0 to 60 s",
+            "hold: -1.0",
+            "contract.hold is -1; accepted: 0 to 60",
         ),
         (
             "weight: 3",
             "weight: 3, patience: 0.0",
-            "\"wave\"",
-            "above 0 s",
+            "patience: 0.0",
+            "contract.patience is 0; accepted: above 0",
         ),
         (
             "fallback: \"rest\"",
@@ -176,10 +186,11 @@ fn files_of_a_repertoire_are_looked_for_beside_it_and_among_the_shipped() {
     )
     .unwrap();
     assert_eq!(build("skills/wave.ron", Some(folder.path())), Ok(1));
+    let refusal = build("none.ron", Some(folder.path())).unwrap_err();
     assert!(
-        build("none.ron", Some(folder.path()))
-            .unwrap_err()
-            .starts_with("cannot read")
+        refusal
+            .starts_with("p.ron:2:21: controllers[0] is 'none.ron'; accepted: a controller file"),
+        "{refusal}"
     );
 }
 

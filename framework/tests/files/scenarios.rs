@@ -59,9 +59,14 @@ fn bad_scenarios_name_line_and_remedy() {
             "position: (0.6, 0.5)",
             "position: (NaN, 0.5)",
             "crate",
-            "position is (NaN, 0.5)",
+            "props[0].position[0] is NaN",
         ),
-        ("half: (0.2, 0.2)", "half: (0.2, 0.0)", "half", "half is 0"),
+        (
+            "half: (0.2, 0.2)",
+            "half: (0.2, 0.0)",
+            "half",
+            "props[0].shape.half[1] is 0",
+        ),
         ("at: 0.1", "at: -0.1", "at: -0.1", "at is -0.1"),
         (
             "at: 0.1",
@@ -81,7 +86,7 @@ fn bad_scenarios_name_line_and_remedy() {
             "character: 3",
             "character is 3",
         ),
-        ("30.0", "NaN", "NaN", "parameters.impulse is NaN"),
+        ("30.0", "NaN", "NaN", "parameters.impulse.default is NaN"),
         ("seed: 7", "seed: -7", "seed", "out of bounds"),
     ] {
         let text = changed(SCENARIO, from, to);
@@ -108,15 +113,15 @@ fn names_that_a_scenario_gets_wrong_are_refused_with_the_nearest() {
             "character: \"humanoit\"",
             "characters known by name: humanoid",
         ),
-        ("Some(\"pair\")", "Some(\"pear\")", "cannot read pear"),
+        (
+            "Some(\"pair\")",
+            "Some(\"pear\")",
+            "'pear', which cannot be read",
+        ),
     ] {
-        let refusal = simulation(&changed(SCENARIO, from, to))
-            .unwrap_err()
-            .to_string();
-        assert!(
-            refusal.contains(message),
-            "{to}: '{message}' expected, got: {refusal}"
-        );
+        let text = changed(SCENARIO, from, to);
+        let refusal = simulation(&text).unwrap_err().to_string();
+        check_refusal(&refusal, &line_of("shove.ron", &text, to), message, to);
     }
 }
 
@@ -131,7 +136,7 @@ fn floods_are_refused() {
     );
     let refusal = simulation(&text).unwrap_err().to_string();
     assert!(
-        refusal.contains("props is 1001; accepted: 0 to 1000"),
+        refusal.contains("props is a list of 1001; accepted: at most 1000"),
         "{refusal}"
     );
     let text = format!("({}", "(".repeat(100_000));

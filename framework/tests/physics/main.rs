@@ -1,5 +1,9 @@
 //! The engine as we use it is honest: gravity, contact, torques, limits, pushes, clones.
 #![allow(clippy::unwrap_used)]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the standard library's functions"
+)]
 
 #[path = "../common/tree.rs"]
 mod tree;

@@ -1,5 +1,9 @@
 //! The supervisor's rules, with controllers that break theirs.
 #![allow(clippy::unwrap_used)]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the standard library's functions"
+)]
 
 #[path = "../common/mod.rs"]
 mod common;

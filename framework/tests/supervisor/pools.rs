@@ -48,7 +48,7 @@ fn a_pool_without_a_valid_fallback_is_refused() {
     assert!(refusal("rest", fine).is_ok());
     assert_eq!(
         refusal("rset", fine).unwrap_err(),
-        "p.ron:3: fallback is 'rset'; accepted: a controller of the pool: rest"
+        "p.ron:3:13: fallback is 'rset'; accepted: a controller of the pool: rest (did you mean 'rest'?)"
     );
     for contract in [
         "weight: 0, precondition: Always",
@@ -58,7 +58,7 @@ fn a_pool_without_a_valid_fallback_is_refused() {
     ] {
         let text = refusal("rest", contract).unwrap_err();
         assert!(
-            text.starts_with("p.ron:3: fallback is 'rest', which does not accept"),
+            text.starts_with("p.ron:3:13: fallback is 'rest', which does not accept"),
             "{text}"
         );
     }

@@ -2,6 +2,7 @@
 //!
 //! reports → headings and cells, whatever they are written as.
 
+use aplomb::framework::math::log10;
 use aplomb::training::preconditions::report::{Metrics, Report};
 
 use crate::cli::statistics::wilson;
@@ -140,7 +141,7 @@ pub(super) fn short(value: f64) -> String {
             format!("{value:.1e}")
         };
     }
-    let decimals = (2.0 - value.abs().log10().floor()).max(0.0) as usize;
+    let decimals = (2.0 - log10(value.abs()).floor()).max(0.0) as usize;
     let text = format!("{value:.decimals$}");
     match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),

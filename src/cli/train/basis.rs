@@ -17,6 +17,7 @@ use serde::Serialize;
 
 use super::cmrt::{SearchArgs, shown};
 use super::figures::Figures;
+use crate::cli::arguments::{Json, Resume};
 use crate::cli::output::{check_writable, message, write_json};
 use crate::cli::values::{Setting, whole};
 use crate::cli::{Verdict, work};
@@ -29,8 +30,8 @@ use crate::cli::{Verdict, work};
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  aplomb train basis push_dominoes --over mass=30..150 --count 11 --components 3 --out push.basis.ron
-  aplomb train cmrt push_dominoes --set mass=100 --basis push.basis.ron")]
+  aplomb train basis push --over mass=30..150 --count 11 --components 3 --out push.basis.ron
+  aplomb train cmrt push --set mass=100 --basis push.basis.ron")]
 pub(in crate::cli) struct BasisArgs {
     /// A shipped clip or a scenario file
     clip: String,
@@ -54,12 +55,10 @@ pub(in crate::cli) struct BasisArgs {
     /// that these explain
     #[arg(long, value_name = "DIR")]
     figures: Option<PathBuf>,
-    /// Goes on with the searches whose journals are beside the output
-    #[arg(long)]
-    resume: bool,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    resume: Resume,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// A parameter with its range.
@@ -91,7 +90,7 @@ impl FromStr for Over {
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-struct Report {
+pub(in crate::cli) struct Report {
     clip: String,
     parameter: String,
     values: Vec<f64>,
@@ -105,6 +104,22 @@ struct Report {
 
 impl BasisArgs {
     pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        let stop = work::stop_on_interrupt()?;
+        let report = self
+            .search
+            .jobs
+            .threads()?
+            .install(|| self.measure(&stop))?;
+        if self.json.wanted {
+            write_json(out, &report)?;
+        } else {
+            print(out, &report)?;
+        }
+        Ok(Verdict::Done)
+    }
+
+    /// What `--json` prints; it is searched in the threads of the caller, and all files are written.
+    pub(in crate::cli) fn measure(&self, stop: &AtomicBool) -> Result<Report> {
         let stem = Path::new(&self.clip).file_stem().unwrap_or_default();
         let usual = || PathBuf::from(format!("{}.basis.ron", stem.to_string_lossy()));
         let file = self.out.clone().unwrap_or_else(usual);
@@ -116,18 +131,16 @@ impl BasisArgs {
             )?),
             None => None,
         };
-        let stop = work::stop_on_interrupt()?;
         let begun = Instant::now();
-        let threads = self.search.jobs.threads()?;
         let mut family: Vec<Cmrt> = Vec::new();
         let (mut objectives, mut evaluations) = (Vec::new(), Vec::new());
         for i in 0..self.count {
             let part = i as f64 / (self.count - 1) as f64;
             let value = self.over.low + part * (self.over.high - self.over.low);
             let value = (1e9 * value).round() / 1e9;
-            let found = threads.install(|| self.member(i, value, family.last(), &file, &stop))?;
+            let found = self.member(i, value, family.last(), &file, stop)?;
             ensure!(
-                work::going_on(&stop).is_continue(),
+                work::going_on(stop).is_continue(),
                 "interrupted at {} = {value}; --resume goes on",
                 self.over.key
             );
@@ -143,14 +156,14 @@ impl BasisArgs {
             });
         }
         let values = family.iter().map(|c| c.value).collect();
-        let (key, seed) = (&self.over.key, self.search.seed);
+        let (key, seed) = (&self.over.key, self.search.seed.value);
         let components = self.components as usize;
         let basis = Basis::new(&self.clip, key, seed, family, components)?;
         basis.write(&file)?;
         if let Some(figures) = figures {
             figures.basis(&basis)?;
         }
-        let report = Report {
+        Ok(Report {
             clip: self.clip.clone(),
             parameter: key.clone(),
             values,
@@ -160,13 +173,7 @@ impl BasisArgs {
             explained: basis.explained.clone(),
             wall_s: begun.elapsed().as_secs_f64(),
             out: file.display().to_string(),
-        };
-        if self.json {
-            write_json(out, &report)?;
-        } else {
-            print(out, &report)?;
-        }
-        Ok(Verdict::Done)
+        })
     }
 
     /// The trajectory for one value, beginning with that for the value before.
@@ -188,7 +195,7 @@ impl BasisArgs {
         let keep = Keep {
             journal: &journal,
             // The search that was interrupted may not have come to this one.
-            resume: self.resume && journal.exists(),
+            resume: self.resume.wanted && journal.exists(),
         };
         shown(&clip, &plan, keep, stop)
     }

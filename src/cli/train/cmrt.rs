@@ -22,6 +22,7 @@ use cpu_time::ProcessTime;
 use serde::Serialize;
 
 use super::figures::Figures;
+use crate::cli::arguments::{ClipSettings, Json, Resume, Seed};
 use crate::cli::output::{check_writable, message, write_json};
 use crate::cli::values::{Setting, number, whole};
 use crate::cli::{Verdict, clips, progress, work};
@@ -40,11 +41,11 @@ use crate::cli::{Verdict, clips, progress, work};
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  aplomb train cmrt fast_bend --figures figures
-  aplomb train cmrt push_dominoes --set mass=110 --out push.ron
-  aplomb train cmrt push_dominoes --set mass=110 --basis push.basis.ron --json")]
+  aplomb train cmrt bend --figures figures
+  aplomb train cmrt push --set mass=110 --out push.ron
+  aplomb train cmrt push --set mass=110 --basis push.basis.ron --json")]
 pub(in crate::cli) struct CmrtArgs {
-    /// A shipped clip (fast_bend for the scenario clips/fast_bend) or a scenario file
+    /// A shipped clip (bend for the scenario clips/bend) or a scenario file
     clip: String,
     #[command(flatten)]
     search: SearchArgs,
@@ -61,20 +62,17 @@ pub(in crate::cli) struct CmrtArgs {
     /// trajectory, the search's convergence, a film strip of either run
     #[arg(long, value_name = "DIR")]
     figures: Option<PathBuf>,
-    /// Goes on with the search whose journal is beside the output
-    #[arg(long)]
-    resume: bool,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    resume: Resume,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// What searches for trajectories have in common.
 #[derive(Debug, Args)]
 pub(super) struct SearchArgs {
-    /// Sets a parameter of the clip; repeatable
-    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
-    pub(super) set: Vec<Setting>,
+    #[command(flatten)]
+    pub(super) settings: ClipSettings,
     /// Place of the motion that is optimised, where the clip has several in a row; those after it do
     /// not count
     #[arg(long, value_name = "N", default_value = "0",
@@ -100,17 +98,15 @@ pub(super) struct SearchArgs {
     #[arg(long, value_name = "X", default_value = "0",
           value_parser = number(0.0, 1e6, ""), allow_negative_numbers = true)]
     pub(super) threshold: f64,
-    /// Fixes everything random
-    #[arg(long, value_name = "N", default_value = "0",
-          value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
-    pub(super) seed: u64,
+    #[command(flatten)]
+    pub(super) seed: Seed,
     #[command(flatten)]
     pub(super) jobs: work::Jobs,
 }
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-struct Report {
+pub(in crate::cli) struct Report {
     clip: String,
     parameters: BTreeMap<String, f64>,
     seed: u64,
@@ -133,6 +129,25 @@ struct Report {
 
 impl CmrtArgs {
     pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        let stop = work::stop_on_interrupt()?;
+        let threads = self.search.jobs.threads()?;
+        let report = threads.install(|| self.measure(&stop))?;
+        if report.interrupted {
+            let n = report.evaluations;
+            message(format_args!(
+                "interrupted after {n} evaluations; --resume goes on"
+            ));
+        }
+        if self.json.wanted {
+            write_json(out, &report)?;
+        } else {
+            print(out, &report)?;
+        }
+        Ok(Verdict::Done)
+    }
+
+    /// What `--json` prints; it is searched in the threads of the caller, and all files are written.
+    pub(in crate::cli) fn measure(&self, stop: &AtomicBool) -> Result<Report> {
         let clip = self.search.clip(&self.clip)?;
         let file = self.out.clone();
         let file = file.unwrap_or_else(|| PathBuf::from(format!("{}.ron", clip.contract().name)));
@@ -152,19 +167,15 @@ impl CmrtArgs {
             start: clip.shipped().filter(|_| self.warm),
             ..self.search.plan(encoding)
         };
-        let stop = work::stop_on_interrupt()?;
         let (begun, cpu) = (Instant::now(), ProcessTime::now());
         let keep = Keep {
             journal: &journal,
-            resume: self.resume,
+            resume: self.resume.wanted,
         };
-        let seed = self.search.seed;
-        let (flat, found, optimised) = self.search.jobs.threads()?.install(|| {
-            let flat = Judged::new(&clip, None, seed)?;
-            let found = shown(&clip, &plan, keep, &stop)?;
-            let optimised = Judged::new(&clip, Some(&found.cmrt), seed)?;
-            anyhow::Ok((flat, found, optimised))
-        })?;
+        let seed = self.search.seed.value;
+        let flat = Judged::new(&clip, None, seed)?;
+        let found = shown(&clip, &plan, keep, stop)?;
+        let optimised = Judged::new(&clip, Some(&found.cmrt), seed)?;
         let report = Report {
             clip: clip.scenario.name.clone(),
             parameters: clip.parameters(),
@@ -175,7 +186,7 @@ impl CmrtArgs {
             evaluations: found.evaluations,
             wall_s: begun.elapsed().as_secs_f64(),
             cpu_s: cpu.elapsed().as_secs_f64(),
-            interrupted: work::going_on(&stop).is_break(),
+            interrupted: work::going_on(stop).is_break(),
             flat,
             optimised,
             times: found.cmrt.times.clone(),
@@ -188,18 +199,7 @@ impl CmrtArgs {
         if let Some(figures) = figures {
             figures.found(&clip, &found, &report.flat, &report.optimised)?;
         }
-        if report.interrupted {
-            let n = report.evaluations;
-            message(format_args!(
-                "interrupted after {n} evaluations; --resume goes on"
-            ));
-        }
-        if self.json {
-            write_json(out, &report)?;
-        } else {
-            print(out, &report)?;
-        }
-        Ok(Verdict::Done)
+        Ok(report)
     }
 }
 
@@ -211,7 +211,7 @@ impl SearchArgs {
 
     /// The same with further parameters.
     pub(super) fn clip_with(&self, name: &str, further: &[Setting]) -> Result<Clip> {
-        let all: Vec<Setting> = self.set.iter().chain(further).cloned().collect();
+        let all: Vec<Setting> = self.settings.set.iter().chain(further).cloned().collect();
         clips::load(name, &all, Some(self.motion as usize))
     }
 
@@ -228,7 +228,7 @@ impl SearchArgs {
             least: self.least as usize,
             threshold: self.threshold,
             starts: self.starts as usize,
-            seed: self.seed,
+            seed: self.seed.value,
             start: None,
         }
     }
@@ -253,9 +253,7 @@ fn comment(r: &Report) -> String {
         .map(|(k, v)| format!("{k} = {v}"))
         .collect();
     format!(
-        "The trajectory{} was found by CMA-ES in {} dimensions, seed {}, {} evaluations:\n\
-         objective {:.3}, centre of pressure {:.3}, {} of {} perturbed starts succeed \
-         (without it {:.3}, {:.3}, {}).",
+        "The trajectory{} was found by CMA-ES in {} dimensions, seed {}, {} evaluations.",
         if parameters.is_empty() {
             String::new()
         } else {
@@ -264,13 +262,6 @@ fn comment(r: &Report) -> String {
         r.dimensions,
         r.seed,
         r.evaluations,
-        r.optimised.objective,
-        r.optimised.cop_norm,
-        r.optimised.successes,
-        r.optimised.starts,
-        r.flat.objective,
-        r.flat.cop_norm,
-        r.flat.successes,
     )
 }
 

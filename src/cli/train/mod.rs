@@ -3,8 +3,8 @@
 mod basis;
 mod cmrt;
 mod figures;
-mod poses;
 mod preconditions;
+mod skill;
 
 use std::io::Write;
 
@@ -21,8 +21,9 @@ use super::scene::CastArgs;
 pub(super) enum TrainCommand {
     Basis(Box<basis::BasisArgs>),
     Cmrt(Box<cmrt::CmrtArgs>),
-    Poses(poses::PosesArgs),
     Preconditions(Box<preconditions::PreconditionsArgs>),
+    #[command(alias = "poses")]
+    Skill(skill::SkillArgs),
 }
 
 impl TrainCommand {
@@ -30,8 +31,8 @@ impl TrainCommand {
         match self {
             Self::Basis(args) => args.run(out),
             Self::Cmrt(args) => args.run(out),
-            Self::Poses(args) => args.run(out),
             Self::Preconditions(args) => args.run(out),
+            Self::Skill(args) => args.run(out),
         }
     }
 }

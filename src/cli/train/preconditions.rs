@@ -22,9 +22,11 @@ use aplomb::training::preconditions::set::{Files, Gathered, Part, Plan, gather, 
 use aplomb::training::situations::disturbance;
 use aplomb::training::situations::disturbance::Disturbance;
 use clap::Args;
+use rayon::ThreadPool;
 use serde::Serialize;
 
 use super::skills;
+use crate::cli::arguments::{Json, Seed};
 use crate::cli::output::{message, write_json};
 use crate::cli::scene::CastArgs;
 use crate::cli::values::whole;
@@ -75,10 +77,8 @@ pub(in crate::cli) struct PreconditionsArgs {
     /// Distribution of starts and disturbances [default: the shipped one of the controller]
     #[arg(long, value_name = "FILE")]
     disturbance: Option<PathBuf>,
-    /// Fixes everything random
-    #[arg(long, value_name = "N", default_value = "0",
-          value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
-    seed: u64,
+    #[command(flatten)]
+    seed: Seed,
     #[command(flatten)]
     jobs: work::Jobs,
     /// Folder that is written to
@@ -87,9 +87,8 @@ pub(in crate::cli) struct PreconditionsArgs {
     /// Goes on with what is in the folder
     #[arg(long)]
     resume: bool,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// Kernels to choose from.
@@ -104,7 +103,7 @@ fn kernels(text: &str) -> Result<Kernels, String> {
 
 /// What was done for a controller.
 #[derive(Debug, Serialize)]
-struct Row {
+pub(in crate::cli) struct Row {
     #[serde(flatten)]
     report: Report,
     /// Rollouts of this run; the others were found.
@@ -117,6 +116,34 @@ struct Row {
 
 impl PreconditionsArgs {
     pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+        let stop = work::stop_on_interrupt()?;
+        let threads = self.jobs.threads()?;
+        let tell = |row: &Row| {
+            if !self.json.wanted {
+                print(out, row)?;
+                out.flush()?;
+            }
+            anyhow::Ok(())
+        };
+        let rows = self.rows(Some(&threads), &stop, tell)?;
+        if self.json.wanted {
+            write_json(out, &rows)?;
+        }
+        Ok(Verdict::Done)
+    }
+
+    /// What `--json` prints; the work is done in the threads of the caller.
+    pub(in crate::cli) fn measure(&self, stop: &AtomicBool) -> Result<Vec<Row>> {
+        self.rows(None, stop, |_| Ok(()))
+    }
+
+    /// A row for each controller, in these threads or those of the caller; `tell` sees each at once.
+    fn rows(
+        &self,
+        threads: Option<&ThreadPool>,
+        stop: &AtomicBool,
+        mut tell: impl FnMut(&Row) -> Result<()>,
+    ) -> Result<Vec<Row>> {
         let skills = skills(&self.cast)?;
         let chosen = chosen(&skills, &self.controllers, self.disturbance.is_some())?;
         if self.disturbance.is_some() && chosen.len() != 1 {
@@ -137,25 +164,18 @@ impl PreconditionsArgs {
         }
         fs::create_dir_all(&self.out)
             .with_context(|| format!("{} cannot be made", self.out.display()))?;
-        let stop = work::stop_on_interrupt()?;
-        let threads = self.jobs.threads()?;
         let mut rows = Vec::with_capacity(trials.len());
         for (skill, trial, source) in &trials {
-            let done = threads.install(|| self.learn(skill, trial, source, &stop))?;
+            let work = || self.learn(skill, trial, source, stop);
+            let done = threads.map_or_else(work, |t| t.install(work))?;
             let Some(row) = done else {
                 message(format_args!("interrupted; --resume goes on"));
                 break;
             };
-            if !self.json {
-                print(out, &row)?;
-                out.flush()?;
-            }
+            tell(&row)?;
             rows.push(row);
         }
-        if self.json {
-            write_json(out, &rows)?;
-        }
-        Ok(Verdict::Done)
+        Ok(rows)
     }
 
     /// Everything for one controller; none if it was interrupted.
@@ -178,7 +198,7 @@ impl PreconditionsArgs {
         let subject = Subject {
             controller: skill.name(),
             character: &skill.model.name,
-            seed: self.seed,
+            seed: self.seed.value,
         };
         let settings = LearnSettings {
             kernels: self.kernel.0.clone(),
@@ -238,7 +258,7 @@ impl PreconditionsArgs {
         };
         let plan = Plan {
             trial,
-            header: header(skill, source, part, self.seed, count as usize),
+            header: header(skill, source, part, self.seed.value, count as usize),
             files: Files::of(&self.out, skill.name(), part),
             resume: self.resume,
         };

@@ -5,6 +5,7 @@
 
 use aplomb::framework::character::Model;
 use aplomb::framework::events::EventKind;
+use aplomb::framework::math::hypot;
 use aplomb::framework::sensing::Sensors;
 use aplomb::training::exercise::Impact;
 
@@ -33,22 +34,38 @@ const REST: f64 = 0.15;
 /// s of rest that end a fall: what touches after it belongs to getting up.
 const RESTED: f64 = 0.1;
 
-/// One fall, from the first touch of anything but feet until the character lies still.
+/// One fall, from the first touch of anything but feet until the character lies still: a head that
+/// touches later, when it rises, was not hit by the fall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Fall {
     /// Whether it went forward.
     pub(super) forward: bool,
     /// When each part first touched, s.
     touched: [Option<f64>; PARTS],
-    /// Speed of the head just before it touched, m/s.
-    pub(super) head_speed: Option<f64>,
-    /// Largest filtered force on the head, N.
-    pub(super) head_force: f64,
+    /// Speed of the head just before it first touched, m/s.
+    head_speed: Option<f64>,
+    /// Largest filtered force on the head, N; 0 if it did not touch.
+    head_force: f64,
     /// Largest filtered force on trunk and root together, N.
     pub(super) trunk_force: f64,
 }
 
+/// How the head was hit in a fall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct HeadHit {
+    /// Speed of the head just before it first touched anything, m/s.
+    pub(super) speed: f64,
+    /// Largest filtered force on it until the character lies still, N.
+    pub(super) force: f64,
+}
+
 impl Fall {
+    /// None if the head touched nothing.
+    pub(super) fn head_hit(&self) -> Option<HeadHit> {
+        let force = self.head_force;
+        self.head_speed.map(|speed| HeadHit { speed, force })
+    }
+
     fn when(&self, part: Part) -> f64 {
         self.touched[part as usize].unwrap_or(f64::INFINITY)
     }
@@ -142,7 +159,7 @@ impl Watch {
             self.upright = true;
             self.falls.extend(self.falling.take());
         }
-        if now.com_velocity[0].hypot(now.com_velocity[1]) > REST {
+        if hypot(now.com_velocity[0], now.com_velocity[1]) > REST {
             self.resting = None;
         } else if now.time - *self.resting.get_or_insert(now.time) > RESTED {
             self.falls.extend(self.falling.take());
@@ -161,7 +178,7 @@ impl Watch {
             fall.trunk_force = fall.trunk_force.max(self.impact.trunk);
         }
         let v = now.kinematics.links[now.model.head].com_velocity;
-        self.head_speed = v[0].hypot(v[1]);
+        self.head_speed = hypot(v[0], v[1]);
     }
 
     /// All falls, the last one possibly not over, and the time to standing of [`Rising`].
@@ -213,8 +230,9 @@ mod tests {
 
     #[test]
     fn the_head_is_as_fast_as_just_before_it_touches() {
-        let fall = fall(false, &[&["pelvis"], &[], &["head"], &["head"]]);
-        assert_eq!(fall.head_speed, Some(2.0));
+        let hit = fall(false, &[&["pelvis"], &[], &["head"], &["head"]]).head_hit();
+        assert_eq!(hit.map(|h| h.speed), Some(2.0));
+        assert_eq!(fall(false, &[&["pelvis"], &["torso"]]).head_hit(), None);
     }
 
     #[test]

@@ -8,13 +8,14 @@ use anyhow::Result;
 use serde::Serialize;
 
 use super::tally::Falls;
-use crate::cli::statistics::median;
+use crate::cli::statistics::{median, percentile};
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
 pub(super) struct FallsReport {
     forward: Forward,
     backward: Backward,
+    /// Of both.
     #[serde(flatten)]
     impact: Impact,
 }
@@ -22,18 +23,19 @@ pub(super) struct FallsReport {
 /// What head and trunk had to take in falls.
 #[derive(Debug, Serialize)]
 struct Impact {
-    /// m/s, of all falls; 0 for those in which the head did not touch.
-    median_head_impact_speed: Option<f64>,
-    /// m/s, of the falls in which the head touched.
-    median_head_hit_speed: Option<f64>,
-    /// Falls in which the head touched.
+    /// Falls in which the head touched anything before the character lay still.
     head_hits: u64,
-    /// Of the largest filtered force on the head in each fall, N.
-    median_head_force: Option<f64>,
-    /// Of the largest filtered force on trunk and root together, N.
+    /// Of the head just before it touched, in the falls in which it did, m/s.
+    median_head_hit_speed: Option<f64>,
+    /// The same: what 95 of 100 do not exceed.
+    p95_head_hit_speed: Option<f64>,
+    /// Of the largest filtered force on the head in the falls in which it touched, N.
+    median_head_hit_force: Option<f64>,
+    /// Of the largest filtered force on trunk and root together in each fall, N.
     median_trunk_force: Option<f64>,
 }
 
+/// Falls forward.
 #[derive(Debug, Serialize)]
 struct Forward {
     count: u64,
@@ -42,6 +44,7 @@ struct Forward {
     impact: Impact,
 }
 
+/// Falls backward.
 #[derive(Debug, Serialize)]
 struct Backward {
     count: u64,
@@ -52,22 +55,22 @@ struct Backward {
 
 impl Impact {
     fn new(falls: &Falls) -> Self {
-        let hits = &falls.head_speeds;
-        let mut all = hits.clone();
-        all.resize((falls.count as usize).max(hits.len()), 0.0);
+        let hits = &falls.head_hits;
+        let speeds: Vec<f64> = hits.iter().map(|h| h.speed).collect();
+        let forces: Vec<f64> = hits.iter().map(|h| h.force).collect();
         Self {
-            median_head_impact_speed: median(&all),
-            median_head_hit_speed: median(hits),
             head_hits: hits.len() as u64,
-            median_head_force: median(&falls.head_forces),
+            median_head_hit_speed: median(&speeds),
+            p95_head_hit_speed: percentile(&speeds, 95),
+            median_head_hit_force: median(&forces),
             median_trunk_force: median(&falls.trunk_forces),
         }
     }
 
     fn head(&self) -> String {
-        match (self.median_head_impact_speed, self.median_head_hit_speed) {
-            (Some(all), Some(hits)) => format!(
-                "head touched in {} at {hits:.2} m/s (median; {all:.2} over all falls)",
+        match (self.median_head_hit_speed, self.p95_head_hit_speed) {
+            (Some(median), Some(p95)) => format!(
+                "head touched in {} at {median:.2} m/s (median; 95 % up to {p95:.2})",
                 self.head_hits
             ),
             _ => "head never touched".to_owned(),
@@ -76,13 +79,15 @@ impl Impact {
 
     /// In words; nothing if there were no falls.
     fn print_forces(&self, out: &mut dyn Write) -> Result<()> {
-        if let (Some(head), Some(trunk)) = (self.median_head_force, self.median_trunk_force) {
-            let blank = "";
-            writeln!(
-                out,
-                "{blank:21}hit with {head:.0} N on the head, {trunk:.0} N on trunk and root (medians over all falls of the peaks, filtered over 10 ms)"
-            )?;
+        let Some(trunk) = self.median_trunk_force else {
+            return Ok(());
+        };
+        let blank = "";
+        write!(out, "{blank:21}hit with {trunk:.0} N on trunk and root")?;
+        if let Some(head) = self.median_head_hit_force {
+            write!(out, ", {head:.0} N on the head where it touched")?;
         }
+        writeln!(out, " (medians of the peaks, filtered over 10 ms)")?;
         Ok(())
     }
 }

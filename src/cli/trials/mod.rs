@@ -23,6 +23,7 @@ use super::output::{check_writable, message, write_recording};
 use super::scene::{SceneArgs, record};
 use super::values::{STRONGEST, duration, number, whole};
 use super::{Verdict, progress, timeline, work};
+use crate::cli::arguments::Json;
 use plan::{Plan, Trial};
 use report::Report;
 use tally::Tally;
@@ -39,6 +40,7 @@ const LARGEST_ANGLE: f64 = std::f64::consts::PI;
 /// Each trial is a run with a random disturbance: one push over 0.1 s at 1 s on the pelvis, torso
 /// or head, joint angles that are off at the start, or a start as a random heap on the floor; with
 /// --vary also in a world of its own.
+/// A fall lasts until the character lies still; the head is hit if it touches anything before.
 /// Trial i depends on the seed and on i only, so that --only i repeats it. Ctrl-C prints the result
 /// of the trials that are finished.
 #[derive(Debug, Args)]
@@ -87,9 +89,8 @@ pub(super) struct TrialsArgs {
     record: Option<PathBuf>,
     #[command(flatten)]
     jobs: work::Jobs,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: Json,
 }
 
 impl TrialsArgs {
@@ -99,24 +100,33 @@ impl TrialsArgs {
             return self.one(&plan, index, out);
         }
         let stop = work::stop_on_interrupt()?;
-        let begun = Instant::now();
-        let tally = self.all(&plan, &stop)?;
-        let wall_s = begun.elapsed().as_secs_f64();
-        let interrupted = tally.count() < self.count;
-        if interrupted {
+        let threads = self.jobs.threads()?;
+        let report = threads.install(|| self.sum_up(&plan, &stop))?;
+        if report.interrupted {
             message(format_args!(
                 "interrupted: {} of {} trials were finished",
-                tally.count(),
-                self.count
+                report.count, self.count
             ));
         }
-        let report = Report::new(&plan, tally, wall_s, interrupted);
-        if self.json {
+        if self.json.wanted {
             report.write_json(out, None)?;
         } else {
             report.print(out, &plan)?;
         }
         Ok(Verdict::Done)
+    }
+
+    /// What `--json` prints of all trials, which run in the threads of the caller.
+    pub(super) fn measure(&self, stop: &AtomicBool) -> Result<Report> {
+        self.sum_up(&self.plan()?, stop)
+    }
+
+    fn sum_up(&self, plan: &Plan, stop: &AtomicBool) -> Result<Report> {
+        let begun = Instant::now();
+        let tally = self.all(plan, stop)?;
+        let wall_s = begun.elapsed().as_secs_f64();
+        let interrupted = tally.count() < self.count;
+        Ok(Report::new(plan, tally, wall_s, interrupted))
     }
 
     fn plan(&self) -> Result<Plan> {
@@ -148,7 +158,6 @@ impl TrialsArgs {
     }
 
     fn all(&self, plan: &Plan, stop: &AtomicBool) -> Result<Tally> {
-        let threads = self.jobs.threads()?;
         let bar = progress::bar(self.count, "trials");
         let take = |mut tally: Tally, index: u64| {
             if let Some(trial) = plan.run(index, stop)? {
@@ -158,11 +167,9 @@ impl TrialsArgs {
             Ok::<_, anyhow::Error>(tally)
         };
         let empty = || Tally::new(plan.pool());
-        let tally = threads.install(|| {
-            let trials = (0..self.count).into_par_iter();
-            let parts = trials.try_fold(empty, take);
-            parts.try_reduce(empty, |a, b| Ok(a.merged(b)))
-        });
+        let trials = (0..self.count).into_par_iter();
+        let parts = trials.try_fold(empty, take);
+        let tally = parts.try_reduce(empty, |a, b| Ok(a.merged(b)));
         bar.finish_and_clear();
         tally
     }
@@ -185,7 +192,7 @@ impl TrialsArgs {
         } = staged;
         // Told once the recording is written: a reader that leaves early does not lose it.
         let mut told = Vec::new();
-        if self.json {
+        if self.json.wanted {
             let mut tally = Tally::new(plan.pool());
             tally.take(&trial);
             let run = RunJson::new(&simulation, &scenario, wall_s, false);

@@ -76,6 +76,8 @@ pub(super) struct Trial {
     pub(super) events: Vec<Event>,
     pub(super) falls: Vec<Fall>,
     pub(super) steps: u64,
+    /// [`Simulation::digest`].
+    pub(super) digest: String,
 }
 
 impl Trial {
@@ -236,6 +238,7 @@ impl Plan {
                 .collect(),
             falls,
             steps,
+            digest: simulation.digest(),
         })
     }
 }

@@ -12,15 +12,15 @@ use crate::cli::output::write_json;
 use super::falls_report::FallsReport;
 use super::plan::Plan;
 use super::tally::{Activations, Failure, Tally};
-use crate::cli::statistics::{median, percentile90, wilson};
+use crate::cli::statistics::{median, percentile, wilson};
 
 /// So many failures are told in text.
 const FAILURES_TOLD: usize = 10;
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-pub(super) struct Report {
-    count: u64,
+pub(in crate::cli) struct Report {
+    pub(super) count: u64,
     standing: u64,
     fraction: f64,
     /// Wilson's, of the fraction that stands.
@@ -33,7 +33,9 @@ pub(super) struct Report {
     wall_s: f64,
     simulated_s: f64,
     steps_per_s: f64,
-    interrupted: bool,
+    pub(super) interrupted: bool,
+    /// Of the trials that are finished: equal if and only if every step of each is.
+    digest: String,
     controllers: BTreeMap<String, Activations>,
     switches_per_minute: f64,
     short_activations: u64,
@@ -64,7 +66,7 @@ impl TimeToStand {
         Some(Self {
             count: times.len() as u64,
             median: median(times)?,
-            p90: percentile90(times)?,
+            p90: percentile(times, 90)?,
             max: times.iter().copied().fold(0.0, f64::max),
         })
     }
@@ -88,6 +90,7 @@ impl Report {
             simulated_s,
             steps_per_s: tally.steps as f64 / wall_s.max(1e-9),
             interrupted,
+            digest: tally.digest(),
             switches_per_minute: tally.switches as f64 * 60.0 / simulated_s.max(1e-9),
             short_activations: tally.short_activations,
             falls: FallsReport::new(&tally.forward, &tally.backward),

@@ -6,8 +6,9 @@ use std::collections::BTreeMap;
 
 use aplomb::framework::events::{EventKind, Reason, Role};
 use serde::Serialize;
+use xxhash_rust::xxh3::xxh3_128;
 
-use super::falls::Fall;
+use super::falls::{Fall, HeadHit};
 use super::plan::Trial;
 
 /// s; shorter activations are told, unless a failure or a command ended them.
@@ -38,10 +39,8 @@ pub(super) struct Falls {
     pub(super) count: u64,
     /// See [`Fall::broken_well`].
     pub(super) broken_well: u64,
-    /// m/s, of the falls in which the head touched.
-    pub(super) head_speeds: Vec<f64>,
-    /// N, see [`Fall::head_force`].
-    pub(super) head_forces: Vec<f64>,
+    /// Of the falls in which the head touched.
+    pub(super) head_hits: Vec<HeadHit>,
     /// N, see [`Fall::trunk_force`].
     pub(super) trunk_forces: Vec<f64>,
 }
@@ -61,6 +60,8 @@ pub(super) struct Tally {
     pub(super) short_activations: u64,
     pub(super) controllers: BTreeMap<String, Activations>,
     failures: Vec<Failure>,
+    /// Sum of the hashes of the trials' indices and digests.
+    digest: u128,
     pub(super) forward: Falls,
     pub(super) backward: Falls,
 }
@@ -80,6 +81,12 @@ impl Tally {
         self.count
     }
 
+    /// Of all trials, as 32 hexadecimal digits. Each trial's digest goes in with its index, so that
+    /// neither the order nor the number of threads changes it.
+    pub(super) fn digest(&self) -> String {
+        format!("{:032x}", self.digest)
+    }
+
     /// In the order of their indices.
     pub(super) fn failures(&mut self) -> &[Failure] {
         self.failures.sort_by_key(|f| f.index);
@@ -89,6 +96,8 @@ impl Tally {
     /// Takes in a trial.
     pub(super) fn take(&mut self, trial: &Trial) {
         self.count += 1;
+        let hash = xxh3_128(format!("{} {}", trial.index, trial.digest).as_bytes());
+        self.digest = self.digest.wrapping_add(hash);
         self.steps += trial.steps;
         self.standing += u64::from(trial.standing);
         self.fell += u64::from(!trial.falls.is_empty());
@@ -163,6 +172,7 @@ impl Tally {
             ours.succeeded += theirs.succeeded;
             ours.failed += theirs.failed;
         }
+        self.digest = self.digest.wrapping_add(other.digest);
         self.failures.extend(other.failures);
         self.forward.merge(other.forward);
         self.backward.merge(other.backward);
@@ -174,8 +184,7 @@ impl Falls {
     fn take(&mut self, fall: &Fall) {
         self.count += 1;
         self.broken_well += u64::from(fall.broken_well());
-        self.head_speeds.extend(fall.head_speed);
-        self.head_forces.push(fall.head_force);
+        self.head_hits.extend(fall.head_hit());
         self.trunk_forces.push(fall.trunk_force);
     }
 
@@ -183,8 +192,7 @@ impl Falls {
     pub(super) fn merge(&mut self, other: Self) {
         self.count += other.count;
         self.broken_well += other.broken_well;
-        self.head_speeds.extend(other.head_speeds);
-        self.head_forces.extend(other.head_forces);
+        self.head_hits.extend(other.head_hits);
         self.trunk_forces.extend(other.trunk_forces);
     }
 }
@@ -219,6 +227,7 @@ mod tests {
             events: switches.iter().map(event).collect(),
             falls: Vec::new(),
             steps: 1000,
+            digest: format!("digest of {index}"),
         }
     }
 
@@ -278,6 +287,8 @@ mod tests {
         let mut a = part([0, 1]).merged(part([3, 5]));
         let mut b = part([5, 3]).merged(part([1, 0]));
         assert_eq!(a.failures(), b.failures());
+        assert_eq!(a.digest(), b.digest());
+        assert_ne!(a.digest(), part([0, 1]).digest());
         assert_eq!((a.count(), a.standing), (4, 1));
     }
 }

@@ -36,7 +36,7 @@ pub(super) fn figure(basis: &Basis) -> Result<String> {
         "components and deviations do not fit the mean of {width} numbers"
     );
     let mean = basis.along(0, 0.0);
-    mean.validate("the mean")?;
+    mean.validate().map_err(|e| e.at("the mean"))?;
     let mean = curve(&mean);
     let moved = |k, deviations| curve(&basis.along(k, deviations));
     let curves: Vec<_> = (0..count)

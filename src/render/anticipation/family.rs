@@ -23,8 +23,9 @@ pub(super) fn figure(basis: &Basis) -> Result<String> {
         !family.is_empty(),
         "family has no trajectories; accepted: 1 and more"
     );
-    for member in family {
-        member.validate("the family")?;
+    for (i, member) in family.iter().enumerate() {
+        let valid = member.validate();
+        valid.map_err(|e| e.inside(("family", i)).at("the basis"))?;
     }
     let curves: Vec<_> = family.iter().map(curve).collect();
     let heights = curves.iter().flatten().map(|p| p[1]);

@@ -75,7 +75,10 @@ pub fn learned(learned: &Learned<'_>) -> Result<Vec<Drawing>> {
         "phases end at {:?} s; accepted: times in order",
         learned.phases
     );
-    learned.cmrt.validate("the trajectory")?;
+    learned
+        .cmrt
+        .validate()
+        .map_err(|e| e.at("the trajectory"))?;
     let mut drawings = vec![
         Drawing {
             name: "cop",

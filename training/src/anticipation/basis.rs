@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use aplomb_controllers::kinds::cmrt::{Cmrt, MOST_KNOTS};
-use aplomb_framework::input::{Error, Result, Source, options, write_atomically};
+use aplomb_framework::input::{Error, FieldPath, Result, Source, check, options, write_atomically};
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +14,8 @@ use crate::anticipation::knots::ordered;
 
 /// Standard deviations of a component from the middle of the unit cube to its faces.
 const SPREAD: f64 = 3.0;
+/// The largest number in a file.
+const LARGEST: f64 = 1e6;
 
 /// The mean of a family and its principal axes.
 ///
@@ -116,33 +118,39 @@ impl Basis {
     pub fn read(path: &Path) -> Result<Self> {
         let source = Source::read(path)?;
         let basis: Self = source.parse()?;
-        let width = basis.mean.len();
-        let knots = width.saturating_sub(1) / 2;
-        let invalid = |field: &str, found: usize, accepted: String| {
-            Err(Error::invalid(&source.origin, field, found, accepted))
-        };
-        if width.is_multiple_of(2) || !(1..=MOST_KNOTS).contains(&knots) {
-            let accepted = format!("an odd number from 3 to {}", 2 * MOST_KNOTS + 1);
-            return invalid("mean", width, accepted);
-        }
-        if basis.components.is_empty() || basis.components.len() > width {
-            let accepted = format!("1 to {width}");
-            return invalid("components", basis.components.len(), accepted);
-        }
-        if let Some(bad) = basis.components.iter().find(|c| c.len() != width) {
-            return invalid("components", bad.len(), format!("{width} numbers each"));
-        }
-        if basis.deviations.len() != basis.components.len() {
-            let accepted = format!("{}, one a component", basis.components.len());
-            return invalid("deviations", basis.deviations.len(), accepted);
-        }
-        let numbers = basis.mean.iter().chain(&basis.deviations);
-        let numbers = numbers.chain(basis.components.iter().flatten());
-        if let Some(bad) = numbers.copied().find(|x| x.is_nan() || x.abs() > 1e6) {
-            let accepted = "finite numbers of at most 1e6";
-            return Err(Error::invalid(&source.origin, "basis", bad, accepted));
-        }
+        basis.check().map_err(|e| source.locate(e))?;
         Ok(basis)
+    }
+
+    fn check(&self) -> Result<()> {
+        let width = self.mean.len();
+        let knots = width.saturating_sub(1) / 2;
+        if width.is_multiple_of(2) || !(1..=MOST_KNOTS).contains(&knots) {
+            let accepted = format!("an odd number of them from 3 to {}", 2 * MOST_KNOTS + 1);
+            let found = format!("a list of {width}");
+            return Err(Error::refused("mean", found, accepted));
+        }
+        let count = self.components.len();
+        check::count("components", count, 1..=width, "components")?;
+        let deviations = self.deviations.len();
+        check::count(
+            "deviations",
+            deviations,
+            count..=count,
+            "numbers, one a component",
+        )?;
+        let numbers = |field: FieldPath, list: &[f64]| {
+            let mut all = list.iter().enumerate();
+            let finite = |(i, x): (usize, &f64)| check::within(i, *x, -LARGEST..=LARGEST);
+            all.try_for_each(finite).map_err(|e| e.inside(field))
+        };
+        for (i, component) in self.components.iter().enumerate() {
+            let what = "numbers, as the mean";
+            check::count(("components", i), component.len(), width..=width, what)?;
+            numbers(("components", i).into(), component)?;
+        }
+        numbers("mean".into(), &self.mean)?;
+        numbers("deviations".into(), &self.deviations)
     }
 
     /// Writes the basis.
@@ -262,7 +270,7 @@ mod tests {
             ("components", |b: &mut Basis| b.components[1].truncate(1)),
             ("deviations", |b: &mut Basis| b.deviations.truncate(1)),
             ("mean", |b: &mut Basis| b.mean.clear()),
-            ("basis", |b: &mut Basis| b.mean[2] = f64::NAN),
+            ("mean[2]", |b: &mut Basis| b.mean[2] = f64::NAN),
         ] as [(&str, fn(&mut Basis)); 5]
         {
             let mut bad = basis.clone();

@@ -149,6 +149,13 @@ impl Clip {
         )
     }
 
+    /// Values of the motion's parameter for which its file has trajectories, in ascending order.
+    #[must_use]
+    pub fn learned_values(&self) -> Vec<f64> {
+        let family = &self.spec.motions[self.motion].cmrts;
+        family.iter().map(|cmrt| cmrt.value).collect()
+    }
+
     /// The repertoire with the motion along another trajectory; with none, no motion has one.
     ///
     /// # Errors
@@ -175,13 +182,13 @@ impl Clip {
     /// The controller's file with one more trajectory, in the place of one for the same value.
     #[must_use]
     pub fn text(&self, cmrt: &Cmrt, comment: &str) -> String {
-        text_of(&self.skill.file.contract, &self.with(cmrt), comment)
+        text_of(&self.skill.file.contract, None, &self.with(cmrt), comment)
     }
 
     /// The same in one line.
     #[must_use]
     pub fn line(&self, cmrt: &Cmrt) -> String {
-        line_of(&self.skill.file.contract, &self.with(cmrt))
+        line_of(&self.skill.file.contract, None, &self.with(cmrt))
     }
 
     fn with(&self, cmrt: &Cmrt) -> CmrtSpec {

@@ -126,7 +126,7 @@ mod tests {
         for corner in 0..256_u32 {
             let bit = |i: usize| f64::from(corner >> i & 1);
             let point: Vec<f64> = (0..8).map(bit).collect();
-            encoding.trajectory(&point).validate("corner").unwrap();
+            encoding.trajectory(&point).validate().unwrap();
         }
         let point = [0.45, 0.55, 0.5, 0.52, 0.3, 0.7, 0.1, 0.5];
         let back = encoding.point(&encoding.trajectory(&point)).unwrap();

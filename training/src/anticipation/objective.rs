@@ -7,6 +7,7 @@ use aplomb_controllers::kinds::cmrt::Cmrt;
 use aplomb_framework::character::Model;
 use aplomb_framework::control::Supervisor;
 use aplomb_framework::input::Result;
+use aplomb_framework::math::square;
 use aplomb_framework::run::Simulation;
 use aplomb_framework::scenario::Scenario;
 use rand::{Rng, SeedableRng};
@@ -193,11 +194,11 @@ fn rollout(
         }
         // Without a foot on the ground there is no centre of pressure: left out, as in the paper.
         if let (Some(p), Some(s)) = (now.cop, now.support_centre()) {
-            sums.cop += (p - s).powi(2);
+            sums.cop += square(p - s);
         }
         if now.time >= task {
             controller.pose_at(since, &mut pose);
-            let off = |(a, b): (&f64, &f64)| (a - b).powi(2);
+            let off = |(a, b): (&f64, &f64)| square(a - b);
             let squares: f64 = now.state.angles().iter().zip(&pose).map(off).sum();
             sums.tracking += squares / pose.len() as f64;
             sums.tracked += 1;

@@ -4,6 +4,7 @@
 
 use aplomb_framework::control::Supervisor;
 use aplomb_framework::events::{EventKind, Reason};
+use aplomb_framework::math::hypot;
 use aplomb_framework::run::Simulation;
 use aplomb_framework::sensing::Sensors;
 
@@ -71,12 +72,12 @@ pub fn land(start: &Simulation, supervisor: &Supervisor, forward: bool) -> Landi
             landing.head_speed = head_before;
         }
         let v = now.kinematics.links[model.head].com_velocity;
-        head_before = v[0].hypot(v[1]);
+        head_before = hypot(v[0], v[1]);
         if first.is_none() {
             first = first_touch(now, forward);
         }
         landing.fell |= now.is_down();
-        let speed = now.com_velocity[0].hypot(now.com_velocity[1]);
+        let speed = hypot(now.com_velocity[0], now.com_velocity[1]);
         quiet = if landing.fell && speed < STILL {
             quiet + dt
         } else {
@@ -124,13 +125,13 @@ mod tests {
     use aplomb_framework::control::repertoire;
 
     /// A landing of the humanoid with a shipped repertoire, backward.
-    fn landing(repertoire: &str, sites: &'static [Site], impulse: f64) -> Landing {
+    fn landing(repertoire: &str, sites: &[Site], impulse: f64) -> Landing {
         let model = Model::load("humanoid").unwrap();
         let registry = aplomb_controllers::registry();
         let supervisor = repertoire::load(repertoire, &registry, &model).unwrap();
         let pushes = Pushes {
             impulse: [impulse; 2],
-            sites,
+            sites: sites.to_vec(),
             count: 2,
             seed: 0,
         };

@@ -2,6 +2,7 @@
 //!
 //! contact forces of every step → forces, low-pass filtered.
 
+use aplomb_framework::math::hypot;
 use aplomb_framework::sensing::Sensors;
 
 /// s over which forces are averaged: a peak of one step is the solver's, not the body's.
@@ -33,7 +34,7 @@ impl Impact {
         let model = &now.model;
         let force = |link: usize| {
             let [x, y] = now.contacts[link].force;
-            x.hypot(y)
+            hypot(x, y)
         };
         // A character may be all trunk: its root then bears no second force.
         let root = if model.trunk == 0 { 0.0 } else { force(0) };

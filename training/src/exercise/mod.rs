@@ -1,9 +1,10 @@
 //! What a skill is measured by, and the rollouts that measure it.
 //!
-//! [`skill`] → [`Task`] → starts in random worlds → rollouts → [`Score`].
+//! [`skill`], its file's `exercise` → [`Task`] → starts in random worlds → rollouts → [`Score`].
 
 pub mod falling;
 mod impact;
+mod measure;
 pub mod rising;
 pub mod skill;
 pub mod standing;
@@ -12,5 +13,6 @@ pub mod stepping;
 mod task;
 
 pub use impact::Impact;
+pub use measure::{Drill, Exercise, Purpose, Score};
 pub use skill::Skill;
-pub use task::{Drill, Exercise, Score, Task};
+pub use task::{Blows, Task};

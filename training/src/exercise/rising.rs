@@ -2,10 +2,12 @@
 //!
 //! starts, supervisor → rollouts → success, time, impacts → cost.
 
-use aplomb_framework::control::{Condition, Contract, Supervisor};
+use aplomb_framework::control::{Contract, Supervisor};
 use aplomb_framework::events::{EventKind, Reason};
+use aplomb_framework::math::cos;
 use aplomb_framework::run::Simulation;
 use aplomb_framework::sensing::{Posture, Sensors};
+use serde::{Deserialize, Serialize};
 
 use crate::exercise::impact::Impact;
 
@@ -15,34 +17,20 @@ const STEADY: f64 = 0.3;
 const LONGEST: f64 = 10.0;
 
 /// What a controller is to bring about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Goal {
     /// Standing still, with the controllers that follow it.
     Stand,
-    /// Its own post-condition, in this posture.
-    Reach(Posture),
-}
-
-impl Goal {
-    /// Of a contract: standing if its post-condition names a posture on the feet alone or none at all,
-    /// else the post-condition.
-    #[must_use]
-    pub fn of(contract: &Contract) -> Self {
-        let any = postures(&contract.postcondition).unwrap_or_default();
-        let on_feet = |p: &Posture| matches!(p, Posture::Standing | Posture::Crouching);
-        match any.first() {
-            Some(first) if !any.iter().any(on_feet) => Self::Reach(*first),
-            _ => Self::Stand,
-        }
-    }
-}
-
-fn postures(condition: &Condition) -> Option<&[Posture]> {
-    match condition {
-        Condition::Posture(any) => Some(any),
-        Condition::All(all) => all.iter().find_map(postures),
-        _ => None,
-    }
+    /// Its own post-condition, in a posture.
+    Reach {
+        /// The posture.
+        posture: Posture,
+        /// rad; upper end of the pitches that the trunk must not pass through: it tells which way
+        /// round to turn. Either way if left out.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        barred: Option<f64>,
+    },
 }
 
 /// What became of one start.
@@ -96,7 +84,6 @@ pub fn rise(
     let begun = run.time();
     let dt = run.world().settings().dt;
     let mut impact = Impact::new(dt);
-    let barred = barred(&contract.expected);
     let (mut steady, mut kept) = (0.0, 0.0);
     let mut all = Rising {
         reached: false,
@@ -116,14 +103,14 @@ pub fn rise(
         all.trunk_force = all.trunk_force.max(impact.trunk);
         all.motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
         steps += 1.0;
-        all.nearest = f64::max(all.nearest, nearness(now, goal, barred));
+        all.nearest = f64::max(all.nearest, nearness(now, goal));
         let name = run.actors()[0].supervisor.active().unwrap_or_default();
         match goal {
             Goal::Stand => {
                 steady = if now.stands() { steady + dt } else { 0.0 };
                 all.reached = steady >= STEADY;
             }
-            Goal::Reach(_) => {
+            Goal::Reach { .. } => {
                 kept = if contract.postcondition.holds(now) {
                     kept + dt
                 } else {
@@ -151,21 +138,6 @@ pub fn rise(
     all
 }
 
-/// The upper end of the pitches that the trunk must not pass through, if the expected performance has
-/// any: they tell which way round to turn.
-fn barred(expected: &Condition) -> Option<f64> {
-    match expected {
-        Condition::All(all) => all.iter().find_map(barred),
-        Condition::Not(inner) => match &**inner {
-            Condition::Within { feature, max, .. } if feature.to_string() == "trunk_pitch" => {
-                Some(*max)
-            }
-            _ => None,
-        },
-        _ => None,
-    }
-}
-
 /// How much of half a turn is done to a pitch, on the way that does not lead through the barred ones.
 fn turned_round(pitch: f64, aim: f64, barred: f64) -> f64 {
     let past = |x: f64| (x - barred).rem_euclid(std::f64::consts::TAU);
@@ -174,7 +146,7 @@ fn turned_round(pitch: f64, aim: f64, barred: f64) -> f64 {
 }
 
 /// How near a situation is to the goal, 0 to 1.
-fn nearness(now: &Sensors, goal: Goal, barred: Option<f64>) -> f64 {
+fn nearness(now: &Sensors, goal: Goal) -> f64 {
     match goal {
         Goal::Stand => {
             let height = now.com_height() / now.model.standing_com()[1];
@@ -188,7 +160,7 @@ fn nearness(now: &Sensors, goal: Goal, barred: Option<f64>) -> f64 {
             let on_feet = f64::from(u8::from(now.only_feet_support()));
             (0.15 * head + over * (0.25 + on_feet * (0.3 + 0.3 * height))).min(1.0)
         }
-        Goal::Reach(posture) => {
+        Goal::Reach { posture, barred } => {
             let aim = match posture {
                 Posture::Supine => std::f64::consts::FRAC_PI_2,
                 Posture::Prone => -std::f64::consts::FRAC_PI_2,
@@ -197,7 +169,7 @@ fn nearness(now: &Sensors, goal: Goal, barred: Option<f64>) -> f64 {
             let pitch = now.trunk_pitch();
             let turned = match barred {
                 Some(barred) => turned_round(pitch, aim, barred),
-                None => 0.5 * (1.0 + (pitch - aim).cos()),
+                None => 0.5 * (1.0 + cos(pitch - aim)),
             };
             let there = f64::from(u8::from(now.posture == posture));
             0.8 * turned + 0.2 * there
@@ -213,32 +185,10 @@ mod tests {
     use aplomb_framework::scenario::Scenario;
     use std::sync::Arc;
 
-    fn goal(postcondition: &str) -> Goal {
-        let text = format!(
-            r#"(name: "x", weight: 1, precondition: Always, postcondition: {postcondition})"#
-        );
-        Goal::of(&ron::from_str(&text).unwrap())
-    }
-
-    #[test]
-    fn the_goal_is_to_stand_unless_the_postcondition_is_off_the_feet() {
-        assert_eq!(goal("Posture([standing])"), Goal::Stand);
-        assert_eq!(goal("Posture([hands_and_feet, crouching])"), Goal::Stand);
-        assert_eq!(
-            goal(r#"Within(feature: "com_height", min: 1)"#),
-            Goal::Stand
-        );
-        let prone = "All([Within(feature: \"com_speed\", max: 1), Posture([prone, supine])])";
-        assert_eq!(goal(prone), Goal::Reach(Posture::Prone));
-    }
-
     #[test]
     fn what_is_barred_tells_which_way_to_turn() {
         use std::f64::consts::{FRAC_PI_2, PI};
-        let text =
-            r#"All([Posture([prone]), Not(Within(feature: "trunk_pitch", min: -1.2, max: 0.3))])"#;
-        let barred = barred(&ron::from_str(text).unwrap()).unwrap();
-        assert_eq!(barred, 0.3);
+        let barred = 0.3;
         // From the back over the shoulders to the belly.
         let done = |pitch| turned_round(pitch, -FRAC_PI_2, barred);
         assert!(done(FRAC_PI_2) < 1e-9);

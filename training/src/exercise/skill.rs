@@ -115,6 +115,7 @@ pub(crate) mod tests {
                 precondition: Within(feature: "com_height", min: 50.0, max: 60.0),
                 postcondition: Posture([prone]),
             ),
+            exercise: Rise(goal: Reach(posture: prone), heaps: 0.5, impulse: (70.0, 260.0)),
             spec: (states: [(pose: {"knee": -0.9}, duration: 0.4)]),
         )),
         File("skills/rest.ron"),

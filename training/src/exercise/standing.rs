@@ -1,13 +1,14 @@
 //! How well a standing controller takes pushes: a cost over pushes around its limit.
 //!
-//! repertoire in text → rollouts → cost. Each push is a short rollout: 1 s of standing, the push,
-//! then up to 7 s until the character has stood for a second or has come down.
+//! supervisor, push → rollout → cost. Each push is a short rollout: 1 s of standing, the push, then up
+//! to 7 s until the character has stood for a second or has come down.
 
 use std::sync::Arc;
 
 use aplomb_framework::character::Model;
-use aplomb_framework::control::{Registry, repertoire};
-use aplomb_framework::input::{Result, Source};
+use aplomb_framework::control::Supervisor;
+use aplomb_framework::input::Result;
+use aplomb_framework::math::square;
 use aplomb_framework::run::Simulation;
 use aplomb_framework::scenario::Scenario;
 
@@ -29,20 +30,23 @@ pub struct Push {
     pub friction: f64,
 }
 
-/// Pushes in steps of `step` N·s around the limits, a little different in time and friction so
-/// that no single lucky run decides.
+/// So many pushes around the limits (N·s), one half forward, the other backward, in even steps, a
+/// little different in time and friction so that no single lucky run decides.
 #[must_use]
-pub fn pushes(forward: [f64; 2], backward: [f64; 2], step: f64) -> Vec<Push> {
-    let mut all = Vec::new();
-    for (sign, [low, high]) in [(1.0, forward), (-1.0, backward)] {
-        let count = ((high - low) / step).round() as usize;
-        for i in 0..=count {
+pub fn pushes(forward: [f64; 2], backward: [f64; 2], count: usize) -> Vec<Push> {
+    let mut all = Vec::with_capacity(count);
+    let ways = [
+        (1.0, forward, count.div_ceil(2)),
+        (-1.0, backward, count / 2),
+    ];
+    for (sign, [low, high], count) in ways {
+        let step = (high - low) / (count.max(2) - 1) as f64;
+        for i in 0..count {
             let phase = [0.0, 0.0013, 0.0029, 0.0047][i % 4];
             let friction = [1.0, 1.0, 0.9, 1.1][i % 4];
-            let impulse = sign * (low + step * i as f64);
             all.push(Push {
                 site: Site::Trunk,
-                impulse,
+                impulse: sign * (low + step * i as f64),
                 at: 1.0 + phase,
                 friction,
             });
@@ -52,20 +56,23 @@ pub fn pushes(forward: [f64; 2], backward: [f64; 2], step: f64) -> Vec<Push> {
 }
 
 impl Push {
-    /// A rollout at the moment at which the push begins: the humanoid has stood until then under
-    /// the repertoire in `text`.
-    ///
-    /// # Errors
-    /// An invalid repertoire.
-    fn begin(&self, text: &str, registry: &Registry) -> Result<Simulation> {
-        let mut scenario = Scenario::standing("humanoid", 10.0);
+    /// A rollout at the moment at which the push begins: the character has stood until then under
+    /// the supervisor.
+    fn begin(&self, model: &Arc<Model>, supervisor: &Supervisor) -> Result<Simulation> {
+        let mut scenario = Scenario::standing(&model.name, 10.0);
         scenario.settings.friction = self.friction;
-        let model = Model::load("humanoid")?;
-        let supervisor = repertoire::build(&Source::new("tuned", text), None, registry, &model)?;
-        let mut run = Simulation::with_cast(&scenario, vec![(Arc::clone(&model), supervisor)])?;
+        let cast = vec![(Arc::clone(model), supervisor.clone())];
+        let mut run = Simulation::with_cast(&scenario, cast)?;
         run.run(self.at);
-        run.push(0, self.site.link(&model), self.impulse)?;
+        run.push(0, self.site.link(model), self.impulse)?;
         Ok(run)
+    }
+
+    /// What one rollout is charged, and whether it stood. One that cannot begin is charged as a
+    /// fall at once.
+    pub(crate) fn judge(&self, model: &Arc<Model>, supervisor: &Supervisor) -> (f64, bool) {
+        let taken = take(model, supervisor, *self);
+        taken.map_or((1.0, false), |taken| (taken.cost(), taken.stood))
     }
 }
 
@@ -85,12 +92,25 @@ pub struct Taken {
     pub motion: f64,
 }
 
-/// One rollout.
+impl Taken {
+    /// What it is charged: 1 for a push that is not stood (less the longer it lasted), and a little
+    /// for slow recovery, for a pose that is not regained and for needless motion.
+    #[must_use]
+    pub fn cost(&self) -> f64 {
+        if self.stood {
+            0.03 * self.after / 7.0 + 0.002 * self.motion.min(20.0) + 0.3 * self.slouch.min(1.0)
+        } else {
+            1.0 - 0.3 * (self.after / 7.0).min(1.0)
+        }
+    }
+}
+
+/// One rollout under a supervisor of the standing controller and what takes over once it has failed.
 ///
 /// # Errors
-/// An invalid repertoire.
-pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
-    let mut run = push.begin(text, registry)?;
+/// A supervisor for another character.
+pub fn take(model: &Arc<Model>, supervisor: &Supervisor, push: Push) -> Result<Taken> {
+    let mut run = push.begin(model, supervisor)?;
     // The push acts from the next step on: this is how it stood before.
     let quiet = run.sensors(0).com_velocity[0].abs() < 0.05;
     let (mut motion, mut steps, mut slouch, mut lifted) = (0.0, 0.0, 0.0, 0.0);
@@ -111,7 +131,7 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
                 .angles()
                 .iter()
                 .zip(&before)
-                .map(|(a, b)| (a - b).powi(2));
+                .map(|(a, b)| square(a - b));
             slouch = (apart.sum::<f64>() / before.len() as f64).sqrt();
         } else if run.outcome(0).standing {
             break;
@@ -128,20 +148,36 @@ pub fn take(text: &str, registry: &Registry, push: Push) -> Result<Taken> {
     })
 }
 
-/// Sum over the pushes: 1 for each that is not stood (less the longer it lasted), and a little for
-/// slow recovery, for a pose that is not regained, for lifted feet and for needless motion.
-///
-/// # Errors
-/// An invalid repertoire.
-pub fn cost(text: &str, registry: &Registry, pushes: &[Push]) -> Result<f64> {
-    let mut sum = 0.0;
-    for push in pushes {
-        let taken = take(text, registry, *push)?;
-        sum += if taken.stood {
-            0.03 * taken.after / 7.0 + 0.002 * taken.motion.min(20.0) + 0.3 * taken.slouch.min(1.0)
-        } else {
-            1.0 - 0.3 * (taken.after / 7.0).min(1.0)
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exercise::skill::tests::shipped;
+
+    #[test]
+    fn light_pushes_are_stood_and_heavy_ones_are_not() {
+        let skill = shipped("balance");
+        let alone = skill.supervisor.alone("balance").unwrap();
+        let taken = |impulse| {
+            let push = Push {
+                site: Site::Trunk,
+                impulse,
+                at: 1.0,
+                friction: 1.0,
+            };
+            take(&skill.model, &alone, push).unwrap()
         };
+        let (light, heavy) = (taken(15.0), taken(120.0));
+        assert!(light.stood && !heavy.stood, "{light:?} {heavy:?}");
+        assert!(light.cost() + 0.5 < heavy.cost(), "{light:?} {heavy:?}");
     }
-    Ok(sum)
+
+    #[test]
+    fn pushes_go_both_ways_evenly_from_the_weakest_to_the_strongest() {
+        let impulses = |count| -> Vec<f64> {
+            let all = pushes([30.0, 50.0], [20.0, 40.0], count);
+            all.iter().map(|p| p.impulse).collect()
+        };
+        assert_eq!(impulses(5), [30.0, 40.0, 50.0, -20.0, -40.0]);
+        assert_eq!(impulses(1), [30.0]);
+    }
 }

@@ -26,8 +26,6 @@ use crate::situations::disturbed::Disturbed;
 const LONGEST: f64 = 7.0;
 /// Gap under a heap before it drops, m.
 const DROP: f64 = 0.02;
-/// N·s; pushes that nobody withstands.
-const PUSHES: [f64; 2] = [70.0, 260.0];
 /// So many without a single start are enough to give up.
 const HOPELESS: usize = 96;
 /// s; when characters are pushed.
@@ -44,6 +42,8 @@ pub struct Source {
     pub worlds: Worlds,
     /// Part of the starts that begin as heaps; the others are pushed over.
     pub heaps: f64,
+    /// Weakest and strongest of these pushes, N·s.
+    pub impulse: [f64; 2],
     /// Starts are looked for in so many heaps and falls for each that is asked for.
     pub patience: usize,
     /// Fixes everything random.
@@ -211,7 +211,7 @@ fn heap_or_push(
     if !heap {
         run.run(PUSH_AT);
         let link = [0, model.trunk, model.head][rng.gen_range(0..3)];
-        let impulse = rng.gen_range(PUSHES[0]..PUSHES[1]);
+        let impulse = rng.gen_range(source.impulse[0]..source.impulse[1]);
         let sign = if rng.gen_range(0..2) == 0 { 1.0 } else { -1.0 };
         run.push(0, &model.links[link].name, sign * impulse)?;
     }

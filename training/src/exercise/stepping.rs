@@ -3,6 +3,7 @@
 //! push, supervisor → rollout → steady on parallel feet, time, way, bent trunk → cost.
 
 use aplomb_framework::control::Supervisor;
+use aplomb_framework::math::square;
 use aplomb_framework::run::Simulation;
 
 /// s after the push within which it is to stand.
@@ -58,7 +59,7 @@ pub fn step(start: &Simulation, supervisor: &Supervisor) -> Stepped {
         run.step();
         let now = run.sensors(0);
         steps += 1.0;
-        all.bent += now.trunk_pitch().powi(2);
+        all.bent += square(now.trunk_pitch());
         all.motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
         if now.is_down() {
             break;

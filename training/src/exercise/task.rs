@@ -1,307 +1,255 @@
-//! What a controller is measured by: situations that it has to cope with, and what counts as coping.
+//! What a controller is measured by, as its file declares it in `exercise`: its goal, and where it
+//! begins.
 //!
-//! skill, drill → starts in random worlds; supervisor → rollouts in parallel → [`Score`].
+//! `exercise` of a controller file (RON) → [`Task`] (validated).
 //!
-//! A controller of kind `fall` is for pushes that nothing withstands ([`falling`]). One that takes
-//! over from a character on its feet alone, and leaves it standing, is pushed less ([`stepping`]);
-//! it is told from its contract: its pre-condition refuses every centre of mass below 0.7 of the
-//! standing height. Any other is taken from where the repertoire hands over to it, in heaps on the
-//! floor, in falls and, where these are too few, after its own disturbance, to its goal ([`rising`]).
+//! ```text
+//! exercise: Rise(goal: Stand, heaps: 0.5, impulse: (70, 260), disturbance: "rise_supine")
+//! exercise: Rise(goal: Reach(posture: prone), heaps: 0.5, impulse: (70, 260))
+//! exercise: Step(search: (impulse: (40, 90), sites: [trunk, root]), measure: (impulse: (40, 75), sites: [trunk]))
+//! exercise: Fall(impulse: (60, 300), sites: [trunk, root, head])
+//! exercise: Stand(forward: (38, 50), backward: (34, 42))
+//! ```
 
-#[cfg(test)]
-mod tests;
-
-use std::ops::ControlFlow;
-
-use aplomb_controllers::kinds::fall::FallSpec;
-use aplomb_framework::character::Model;
-use aplomb_framework::control::{Condition, Contract, Spec, Supervisor};
-use aplomb_framework::input::{Error, Result};
-use aplomb_framework::run::Simulation;
-use rayon::prelude::*;
+use aplomb_framework::control::Condition;
+use aplomb_framework::input::{Error, Result, Source, check};
+use serde::{Deserialize, Serialize};
 
 use crate::exercise::rising::Goal;
 use crate::exercise::skill::Skill;
-use crate::exercise::starts::{Starts, Wanted, starts};
-use crate::exercise::{falling, rising, starts, stepping};
-use crate::situations::disturbance::Disturbance;
-use crate::situations::disturbed::Disturbed;
-use crate::situations::pushes::{Pushes, Site, is_forward};
-use crate::situations::{Worlds, disturbance};
+use crate::situations::disturbance;
+use crate::situations::pushes::Site;
 
-/// Lowest centre of mass of whoever is on its feet, relative to the standing height.
-const UPRIGHT: f64 = 0.7;
-/// Part of the starts that are heaps; the others are falls.
-const HEAPS: f64 = 0.5;
-/// N·s; weakest and strongest push of a fall, and where they act.
-const FALLS: [f64; 2] = [60.0, 300.0];
-const EVERYWHERE: &[Site] = &[Site::Trunk, Site::Root, Site::Head];
+/// N·s; no push is stronger.
+const STRONGEST: f64 = 1000.0;
+/// At most this many sites.
+const MOST_SITES: usize = 16;
+/// What to write in a file without it.
+const EXAMPLE: &str = "Rise(…), Step(…), Fall(…) or Stand(…), for example \
+                       exercise: Rise(goal: Stand, heaps: 0.5, impulse: (70, 260))";
 
-/// What a controller has to do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Pushes of a character that stands.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Blows {
+    /// Weakest and strongest, N·s.
+    pub impulse: [f64; 2],
+    /// Where they act, in turn.
+    pub sites: Vec<Site>,
+}
+
+/// What a controller has to do, and from where.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Task {
-    /// Bring a character that is down to a goal.
-    Rise(Goal),
-    /// Take a push.
-    Push,
+    /// Bring a character to a goal, from where the repertoire hands over to the controller in heaps
+    /// on the floor and in falls.
+    Rise {
+        /// What is to be brought about.
+        goal: Goal,
+        /// Part of the situations that begin as heaps, 0 to 1; the others begin as falls.
+        heaps: f64,
+        /// Weakest and strongest push of the falls, N·s.
+        impulse: [f64; 2],
+        /// The shipped disturbance that further starts begin with where heaps and falls seldom lead
+        /// to the controller.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        disturbance: Option<String>,
+    },
+    /// Stand again after a push.
+    Step {
+        /// The pushes of a search.
+        search: Blows,
+        /// The pushes of a measurement in one world.
+        measure: Blows,
+    },
     /// Come down well after a push.
-    Fall,
+    Fall {
+        /// Weakest and strongest push, N·s.
+        impulse: [f64; 2],
+        /// Where they act, in turn.
+        sites: Vec<Site>,
+    },
+    /// Withstand pushes of the trunk in place, alone.
+    Stand {
+        /// Weakest and strongest push forward, N·s.
+        forward: [f64; 2],
+        /// Weakest and strongest push backward, N·s.
+        backward: [f64; 2],
+    },
 }
 
 impl Task {
-    /// What a skill's kind and contract ask for.
+    /// What a skill's file declares.
     ///
     /// # Errors
-    /// [`Error::Invalid`] if there is nothing to measure: a controller that never ends or has always
-    /// succeeded, and one that acts only on command and on its feet.
+    /// [`Error::Invalid`] if it declares nothing, or what its contract rules out: a controller that
+    /// never ends or has always succeeded, and one that is to act unasked but acts only on command;
+    /// [`Error::Syntax`]; numbers out of bounds.
     pub fn of(skill: &Skill) -> Result<Self> {
-        if skill.kind() == <FallSpec as Spec>::KIND {
-            return Ok(Self::Fall);
-        }
-        Self::by_contract(&skill.contract, &skill.model)
+        let Some(raw) = &skill.file.exercise else {
+            return Err(Error::invalid(skill.name(), "exercise", "missing", EXAMPLE));
+        };
+        let source = Source::new(format!("{}: exercise", skill.name()), raw.get_ron());
+        let task: Self = source.parse()?;
+        task.check().map_err(|e| source.locate(e))?;
+        task.check_contract(skill)?;
+        Ok(task)
     }
 
-    fn by_contract(contract: &Contract, model: &Model) -> Result<Self> {
+    fn check(&self) -> Result<()> {
+        let range = |field: &'static str, [low, high]: [f64; 2]| {
+            check::within((field, 0), low, 0.0..=STRONGEST)?;
+            check::above((field, 1), high, low, STRONGEST)
+        };
+        let sites = |sites: &[Site]| check::count("sites", sites.len(), 1..=MOST_SITES, "sites");
+        match self {
+            Self::Rise {
+                goal,
+                heaps,
+                impulse,
+                disturbance,
+            } => {
+                check::within("heaps", *heaps, 0.0..=1.0)?;
+                if let Goal::Reach {
+                    barred: Some(barred),
+                    ..
+                } = goal
+                {
+                    let checked = check::within("barred", *barred, -7.0..=7.0);
+                    checked.map_err(|e| e.inside("goal"))?;
+                }
+                if let Some(name) = disturbance {
+                    disturbance::shipped(name).map_err(|e| e.inside("disturbance"))?;
+                }
+                range("impulse", *impulse)
+            }
+            Self::Step { search, measure } => {
+                let blows = [("search", search), ("measure", measure)];
+                blows.into_iter().try_for_each(|(field, blows)| {
+                    let checked = range("impulse", blows.impulse).and(sites(&blows.sites));
+                    checked.map_err(|e| e.inside(field))
+                })
+            }
+            Self::Fall { impulse, sites: at } => range("impulse", *impulse).and(sites(at)),
+            Self::Stand { forward, backward } => {
+                range("forward", *forward).and(range("backward", *backward))
+            }
+        }
+    }
+
+    fn check_contract(&self, skill: &Skill) -> Result<()> {
         let invalid = |field: &str, problem: String, accepted: &str| {
-            Err(Error::invalid(&contract.name, field, problem, accepted))
+            Err(Error::invalid(skill.name(), field, problem, accepted))
         };
+        let contract = &skill.contract;
         let post = &contract.postcondition;
-        if matches!(post, Condition::Never | Condition::Always) {
-            let accepted = "a condition that the controller brings about";
-            return invalid("postcondition", post.to_string(), accepted);
-        }
-        let goal = Goal::of(contract);
-        let upright = UPRIGHT * model.standing_com()[1];
-        if goal != Goal::Stand || lowest(&contract.precondition) < upright {
-            return Ok(Self::Rise(goal));
-        }
-        if contract.weight == 0 {
-            let accepted = "above 0 for one that takes over from a standing character";
-            return invalid("weight", "0, only on command".to_owned(), accepted);
-        }
-        Ok(Self::Push)
-    }
-}
-
-/// A height of the centre of mass, m, below which a condition is sure to refuse.
-fn lowest(condition: &Condition) -> f64 {
-    match condition {
-        Condition::Never => f64::INFINITY,
-        Condition::Within { feature, min, .. } if feature.to_string() == "com_height" => *min,
-        Condition::All(all) => all.iter().map(lowest).fold(f64::NEG_INFINITY, f64::max),
-        Condition::Any(any) => any.iter().map(lowest).fold(f64::INFINITY, f64::min),
-        _ => f64::NEG_INFINITY,
-    }
-}
-
-/// How starts are made.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drill {
-    /// The worlds.
-    pub worlds: Worlds,
-    /// Weakest and strongest push of [`Task::Push`], N·s.
-    pub impulse: [f64; 2],
-    /// Where the pushes of [`Task::Push`] act, in turn.
-    pub sites: &'static [Site],
-    /// How many.
-    pub starts: usize,
-    /// They are looked for in so many situations each.
-    pub patience: usize,
-    /// Fixes everything random.
-    pub seed: u64,
-}
-
-impl Drill {
-    /// What skills are trained with.
-    #[must_use]
-    pub fn training(starts: usize, seed: u64) -> Self {
-        Self {
-            worlds: Worlds::VARIED,
-            impulse: [40.0, 90.0],
-            sites: &[Site::Trunk, Site::Trunk, Site::Root],
-            starts,
-            patience: 10,
-            seed,
-        }
-    }
-
-    /// What skills are measured with in a single world: weaker pushes, of the trunk alone, and less
-    /// patience with what seldom occurs.
-    #[must_use]
-    pub fn cell(worlds: Worlds, starts: usize, seed: u64) -> Self {
-        Self {
-            worlds,
-            impulse: [40.0, 75.0],
-            sites: &[Site::Trunk],
-            starts,
-            patience: 4,
-            seed,
-        }
-    }
-
-    fn pushes(&self) -> Pushes {
-        Pushes {
-            impulse: self.impulse,
-            sites: self.sites,
-            count: self.starts,
-            seed: self.seed,
-        }
-    }
-}
-
-/// How well a controller did.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Score {
-    /// Mean over the starts; less is better.
-    pub cost: f64,
-    /// Starts from which it reached its goal; falls that it broke well.
-    pub reached: usize,
-}
-
-impl Score {
-    /// Of what cannot even be built.
-    pub const WORST: Self = Self {
-        cost: f64::INFINITY,
-        reached: 0,
-    };
-}
-
-/// With the shipped disturbance of its name, if there is one and it fits the character.
-fn wanted(skill: &Skill) -> Wanted<'_> {
-    let disturbed = || {
-        let source = disturbance::shipped(skill.name()).ok()?;
-        let disturbance = Disturbance::parse(&source, &skill.model).ok()?;
-        Disturbed::new(disturbance, &skill.model, &skill.supervisor).ok()
-    };
-    Wanted {
-        contract: &skill.contract,
-        disturbed: disturbed(),
-    }
-}
-
-/// A task with its starts.
-#[derive(Debug, Clone)]
-pub struct Exercise {
-    contract: Contract,
-    task: Task,
-    starts: Starts,
-}
-
-impl Exercise {
-    /// Makes the starts under the skill's repertoire. While they are looked for, `watch` sees how many
-    /// there are so far and may end the work; then there are fewer.
-    ///
-    /// # Errors
-    /// As [`Task::of`].
-    pub fn new(
-        skill: &Skill,
-        drill: Drill,
-        watch: impl FnMut(usize) -> ControlFlow<()>,
-    ) -> Result<Self> {
-        let mut one = Self::all(&[skill], drill, watch)?;
-        Ok(one.remove(0))
-    }
-
-    /// The exercises of several skills of one repertoire, as [`Self::new`] makes each, in less time.
-    /// `watch` sees the starts in heaps and falls, of all together.
-    ///
-    /// # Errors
-    /// As [`Task::of`].
-    pub fn all(
-        skills: &[&Skill],
-        drill: Drill,
-        watch: impl FnMut(usize) -> ControlFlow<()>,
-    ) -> Result<Vec<Self>> {
-        let task = |skill: &&Skill| Task::of(skill);
-        let tasks: Vec<Task> = skills.iter().map(task).collect::<Result<_>>()?;
-        let rising: Vec<Wanted> = skills
-            .iter()
-            .zip(&tasks)
-            .filter(|(_, task)| matches!(task, Task::Rise(_)))
-            .map(|(skill, _)| wanted(skill))
-            .collect();
-        let risen = match skills.first() {
-            Some(Skill {
-                model, supervisor, ..
-            }) => {
-                let source = starts::Source {
-                    worlds: drill.worlds,
-                    heaps: HEAPS,
-                    patience: drill.patience,
-                    seed: drill.seed,
-                };
-                starts(source, drill.starts, model, &rising, supervisor, watch)?
+        match self {
+            Self::Rise { .. } if matches!(post, Condition::Never | Condition::Always) => {
+                let accepted = "a condition that the controller brings about";
+                invalid("postcondition", post.to_string(), accepted)
             }
-            None => Vec::new(),
+            Self::Step { .. } | Self::Stand { .. } if contract.weight == 0 => {
+                let accepted = "above 0 for one that takes over from a standing character";
+                invalid("weight", "0, only on command".to_owned(), accepted)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// So many starts in words.
+    pub(crate) fn starts_in_words(&self, count: usize) -> String {
+        match self {
+            Self::Stand {
+                forward: [low, high],
+                backward: [low2, high2],
+            } => format!(
+                "{count} pushes of {low} to {high} N·s forward and {low2} to {high2} backward"
+            ),
+            _ => format!("{count} starts in varied worlds"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exercise::skill::tests::{TUCK, shipped, skills};
+    use aplomb_framework::sensing::Posture;
+
+    /// What is said of TUCK with another exercise.
+    fn told(exercise: &str) -> std::result::Result<Task, String> {
+        let before = r#"Rise(goal: Reach(posture: supine), heaps: 0.5, impulse: (70.0, 260.0))"#;
+        assert!(TUCK.contains(before));
+        let (_folder, skills) = skills(&TUCK.replace(before, exercise));
+        Task::of(Skill::find(&skills, "tuck").unwrap()).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn the_task_is_what_the_file_declares() {
+        let goal = Goal::Reach {
+            posture: Posture::Supine,
+            barred: None,
         };
-        let mut risen = risen.into_iter();
-        let one = |(skill, task): (&&Skill, Task)| {
-            let pushes = match task {
-                Task::Rise(_) => None,
-                Task::Push => Some(drill.pushes()),
-                Task::Fall => Some(Pushes {
-                    impulse: FALLS,
-                    sites: EVERYWHERE,
-                    ..drill.pushes()
-                }),
-            };
-            let starts = match pushes {
-                Some(pushes) => Starts {
-                    runs: pushes.begin(&skill.model, &skill.supervisor, drill.worlds)?,
-                    own: 0,
-                },
-                None => risen.next().unwrap_or_default(),
-            };
-            Ok(Self {
-                contract: skill.contract.clone(),
-                task,
-                starts,
-            })
+        let Ok(Task::Rise { goal: found, .. }) =
+            told("Rise(goal: Reach(posture: supine), heaps: 0, impulse: (1, 2))")
+        else {
+            panic!("no task to rise");
         };
-        skills.iter().zip(tasks).map(one).collect()
+        assert_eq!(found, goal);
+        let kinds = [
+            ("balance", "Stand"),
+            ("stance", "Stand"),
+            ("protective_step", "Step"),
+            ("fall", "Fall"),
+            ("stand_up", "Rise"),
+            ("roll_backward", "Rise"),
+        ];
+        for (name, kind) in kinds {
+            let task = format!("{:?}", Task::of(&shipped(name)).unwrap());
+            assert!(task.starts_with(kind), "{name}: {task}");
+        }
     }
 
-    /// The task.
-    #[must_use]
-    pub fn task(&self) -> Task {
-        self.task
+    #[test]
+    fn who_declares_nothing_reads_what_to_write() {
+        let told = Task::of(&shipped("bow")).unwrap_err().to_string();
+        assert!(told.starts_with("bow: exercise is missing; "), "{told}");
+        assert!(told.contains("exercise: Rise(goal: Stand"), "{told}");
     }
 
-    /// How many starts there are: what was asked for, or fewer, down to none, where the repertoire
-    /// seldom hands over to the controller.
-    #[must_use]
-    pub fn starts(&self) -> usize {
-        self.starts.runs.len()
+    #[test]
+    fn what_is_out_of_bounds_is_refused() {
+        let rise = |rest: &str| format!("Rise(goal: Stand, {rest})");
+        let refusals = [
+            (rise("heaps: 2, impulse: (70, 260)"), "heaps is 2"),
+            (rise("heaps: 0.5, impulse: (70, 7)"), "impulse is (70, 7)"),
+            (rise("heaps: 0.5, impulse: (-1, 7)"), "0 to 1000 N·s"),
+            (rise("heaps: 0.5, impulse: (7, 2000)"), "(7, 2000)"),
+            (
+                rise("heaps: 0.5, impulse: (7, 8), disturbance: \"rol\""),
+                "'roll'",
+            ),
+            ("Fall(impulse: (1, 2), sites: [])".into(), "a list of 0"),
+            ("Jump(height: 1)".into(), "Jump"),
+            ("Stand(forward: (1, 2), backward: (3, 3))".into(), "(3, 3)"),
+        ];
+        for (exercise, why) in refusals {
+            let told = told(&exercise).unwrap_err();
+            assert!(told.contains(why), "{exercise}: {told}");
+            assert!(told.starts_with("tuck: exercise"), "{told}");
+        }
+        let step = "Stand(forward: (1, 2), backward: (1, 2))";
+        assert!(told(step).is_ok());
     }
 
-    /// How many of them begin as the controller's own rollouts do, for want of heaps and falls.
-    #[must_use]
-    pub fn own_starts(&self) -> usize {
-        self.starts.own
-    }
-
-    /// How well the controller does in a repertoire.
-    #[must_use]
-    pub fn judge(&self, supervisor: &Supervisor) -> Score {
-        let one = |(index, start): (usize, &Simulation)| match self.task {
-            Task::Rise(goal) => {
-                let rising = rising::rise(start, supervisor, &self.contract, goal);
-                (rising.cost(), rising.reached)
-            }
-            Task::Push => {
-                let stepped = stepping::step(start, supervisor);
-                (stepped.cost(), stepped.stood)
-            }
-            Task::Fall => {
-                let landing = falling::land(start, supervisor, is_forward(index));
-                (landing.cost(), landing.protected)
-            }
-        };
-        // In the order of the starts, so that the number of threads does not change the sum.
-        let all: Vec<(f64, bool)> = self.starts.runs.par_iter().enumerate().map(one).collect();
-        Score {
-            cost: all.iter().map(|(cost, _)| cost).sum::<f64>() / all.len().max(1) as f64,
-            reached: all.iter().filter(|(_, reached)| *reached).count(),
+    #[test]
+    fn a_task_survives_its_file() {
+        for name in ["balance", "protective_step", "fall", "roll_backward"] {
+            let task = Task::of(&shipped(name)).unwrap();
+            let text = aplomb_framework::input::options().to_string(&task).unwrap();
+            let again: Task = Source::new("x", text).parse().unwrap();
+            assert_eq!(again, task);
         }
     }
 }

@@ -3,10 +3,14 @@
 //! learned machine, report → [`Boundary`].
 
 use aplomb_framework::control::Boundary;
+use aplomb_framework::control::boundary::{BoundaryFigures, VERSION};
 use aplomb_framework::input::Result;
 
 use crate::preconditions::learning::learned::Learned;
 use crate::preconditions::report::Report;
+
+const PROVENANCE: &str =
+    "Learned by `aplomb train preconditions` from rollouts with random disturbances.";
 
 /// The boundary of a controller of the character with this digest.
 ///
@@ -14,23 +18,24 @@ use crate::preconditions::report::Report;
 /// A feature that the framework does not know.
 pub fn boundary(learned: &Learned, report: &Report, digest: &str) -> Result<Boundary> {
     let svm = &report.svm;
-    let provenance = format!(
-        "{} rollouts, seed {}, {} % successes; {} kernel, C {}, gamma {:.4}, {} support vectors. On {} others: \
-         {:.1} % right, {:.1} % balanced; nearest neighbour {:.1} %, by hand {:.1} % balanced.",
-        report.train,
-        report.seed,
-        (100.0 * report.positive_rate).round(),
-        svm.kernel,
-        svm.c,
-        svm.gamma,
-        svm.support_vectors,
-        report.test,
-        100.0 * svm.metrics.accuracy,
-        100.0 * svm.metrics.balanced_accuracy,
-        100.0 * report.nn.metrics.balanced_accuracy,
-        100.0 * report.manual.balanced_accuracy,
-    );
+    let figures = BoundaryFigures {
+        rollouts: report.train,
+        seed: report.seed,
+        successes: report.positive_rate,
+        kernel: svm.kernel.clone(),
+        c: svm.c,
+        gamma: svm.gamma,
+        support_vectors: svm.support_vectors,
+        tested: report.test,
+        accuracy: svm.metrics.accuracy,
+        balanced_accuracy: svm.metrics.balanced_accuracy,
+        balanced_accuracy_of_nearest_neighbour: report.nn.metrics.balanced_accuracy,
+        balanced_accuracy_of_hand_written: report.manual.balanced_accuracy,
+    };
     Ok(Boundary {
+        version: VERSION,
+        provenance: PROVENANCE.to_owned(),
+        figures: Some(figures),
         controller: report.controller.clone(),
         character: report.character.clone(),
         character_digest: digest.to_owned(),
@@ -41,8 +46,7 @@ pub fn boundary(learned: &Learned, report: &Report, digest: &str) -> Result<Boun
             .collect::<Result<_>>()?,
         mean: learned.scaling.mean.clone(),
         scale: learned.scaling.scale.clone(),
-        decision: learned.decision.clone(),
         calibration: learned.calibration,
-        provenance,
+        decision: learned.decision.clone(),
     })
 }

@@ -3,6 +3,7 @@
 //! Parallel over the candidates of a generation, which are asked for in no fixed order; the same
 //! seed and costs give the same candidates whatever the number of threads.
 
+use aplomb_framework::math::{ln, square};
 use std::ops::ControlFlow;
 
 use cmaes::{CMAESOptions, DVector};
@@ -23,7 +24,7 @@ pub struct Search {
 /// Candidates a generation: Hansen's 4 + 3 ln n, made even.
 #[must_use]
 pub fn population(dimensions: usize) -> usize {
-    let usual = 4 + (3.0 * (dimensions.max(1) as f64).ln()) as usize;
+    let usual = 4 + (3.0 * ln(dimensions.max(1) as f64)) as usize;
     usual.next_multiple_of(2)
 }
 
@@ -61,7 +62,7 @@ pub fn minimise(
 ) -> Best {
     let charged = |x: &DVector<f64>| {
         let inside: Vec<f64> = x.iter().map(|v| v.clamp(0.0, 1.0)).collect();
-        let outside: f64 = x.iter().zip(&inside).map(|(a, b)| (a - b).powi(2)).sum();
+        let outside: f64 = x.iter().zip(&inside).map(|(a, b)| square(a - b)).sum();
         cost(&inside) + 10.0 * outside
     };
     let mut best = Best {
@@ -110,7 +111,7 @@ mod tests {
         let cost = |x: &[f64]| {
             x.iter()
                 .zip(target)
-                .map(|(a, b)| (a - b).powi(2))
+                .map(|(a, b)| square(a - b))
                 .sum::<f64>()
         };
         pool.map(|p| {

@@ -1,4 +1,5 @@
 //! What is optimised: named numbers with ranges, mapped to the unit cube.
+use aplomb_framework::math::{exp, ln};
 
 /// One number.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +41,7 @@ impl Dimension {
     #[must_use]
     pub fn value(&self, unit: f64) -> f64 {
         if self.logarithmic {
-            (self.low.ln() + unit * (self.high / self.low).ln()).exp()
+            exp(ln(self.low) + unit * ln(self.high / self.low))
         } else {
             self.low + unit * (self.high - self.low)
         }
@@ -60,7 +61,7 @@ impl Dimension {
     #[must_use]
     pub fn unit(&self, value: f64) -> f64 {
         let u = if self.logarithmic {
-            (value.max(f64::MIN_POSITIVE) / self.low).ln() / (self.high / self.low).ln()
+            ln(value.max(f64::MIN_POSITIVE) / self.low) / ln(self.high / self.low)
         } else {
             (value - self.low) / (self.high - self.low)
         };

@@ -12,8 +12,10 @@ mod tests;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use aplomb_controllers::kinds::balance::BalanceSpec;
 use aplomb_controllers::kinds::fall::FallSpec;
 use aplomb_controllers::kinds::pose::PoseSpec;
+use aplomb_controllers::kinds::stance::StanceSpec;
 use aplomb_controllers::kinds::step::StepSpec;
 use aplomb_framework::control::{ControllerFile, Spec};
 use aplomb_framework::input::{Error, Result, Source, write_atomically};
@@ -25,10 +27,12 @@ use crate::search::journal::{Journal, beside};
 use crate::search::tune::{Tunable, at, line_of, point_of, text_of};
 
 /// The kinds of controllers that can be searched.
-pub const KINDS: [&str; 3] = [
+pub const KINDS: [&str; 5] = [
     <PoseSpec as Spec>::KIND,
     <StepSpec as Spec>::KIND,
     <FallSpec as Spec>::KIND,
+    <BalanceSpec as Spec>::KIND,
+    <StanceSpec as Spec>::KIND,
 ];
 
 /// How to search.
@@ -82,13 +86,12 @@ pub fn improve(
     watch: impl FnMut(Stage) -> ControlFlow<()>,
 ) -> Result<Option<Found>> {
     check(skill)?;
-    let kind = skill.kind();
-    if kind == <PoseSpec as Spec>::KIND {
-        search::<PoseSpec>(skill, plan, watch)
-    } else if kind == <StepSpec as Spec>::KIND {
-        search::<StepSpec>(skill, plan, watch)
-    } else {
-        search::<FallSpec>(skill, plan, watch)
+    match skill.kind() {
+        PoseSpec::KIND => search::<PoseSpec>(skill, plan, watch),
+        StepSpec::KIND => search::<StepSpec>(skill, plan, watch),
+        FallSpec::KIND => search::<FallSpec>(skill, plan, watch),
+        BalanceSpec::KIND => search::<BalanceSpec>(skill, plan, watch),
+        _ => search::<StanceSpec>(skill, plan, watch),
     }
 }
 
@@ -111,13 +114,14 @@ fn search<T: Tunable>(
 ) -> Result<Option<Found>> {
     let (model, contract) = (&skill.model, &skill.contract);
     let file = skill.file.parameters::<T>(skill.name())?;
+    let task = Task::of(skill)?;
     let search = Search {
         sigma: plan.sigma,
         population: population(file.dimensions(model).len()),
         evaluations: plan.evaluations,
         seed: plan.seed,
     };
-    let (journal, base) = open(skill, file, plan, search)?;
+    let (journal, base) = open(skill, &task, file, plan, search)?;
     let supervisor = skill
         .supervisor
         .with_replaced(base.clone().build(contract.clone(), model)?)?;
@@ -178,7 +182,12 @@ fn search<T: Tunable>(
         if written.is_ok() && best.cost < least {
             least = best.cost;
             let spec = at(&base, model, &best.point);
-            let text = text_of(&skill.file.contract, &spec, &comment(&plan, &so_far));
+            let text = text_of(
+                &skill.file.contract,
+                Some(&task),
+                &spec,
+                &comment(&task, &plan, &so_far),
+            );
             written = write_atomically(plan.out, text.as_bytes());
         }
         if written.is_err() {
@@ -192,6 +201,7 @@ fn search<T: Tunable>(
 /// The journal, new or gone on with, and the numbers that the search begins with.
 fn open<T: Tunable>(
     skill: &Skill,
+    task: &Task,
     file: T,
     plan: Plan<'_>,
     search: Search,
@@ -205,7 +215,7 @@ fn open<T: Tunable>(
         ("surroundings", format!("{:016x}", skill.surroundings)),
     ];
     let path = beside(plan.out);
-    let now = line_of(&skill.file.contract, &file);
+    let now = line_of(&skill.file.contract, Some(task), &file);
     if !plan.resume {
         return Ok((Journal::begin(&path, &header, &now)?, file));
     }
@@ -214,7 +224,7 @@ fn open<T: Tunable>(
         return Ok((journal, file));
     }
     // The output may well be the controller's own file, which by now has better numbers.
-    let written = Source::read(plan.out).and_then(|source| line_in::<T>(&source));
+    let written = Source::read(plan.out).and_then(|source| line_in::<T>(&source, task));
     if written.is_ok_and(|written| written == now) {
         let source = Source::new(path.display().to_string(), before);
         let first: ControllerFile = source.parse()?;
@@ -225,16 +235,18 @@ fn open<T: Tunable>(
     Err(Error::invalid(place, "controller", "another", accepted))
 }
 
-fn line_in<T: Tunable>(source: &Source) -> Result<String> {
+fn line_in<T: Tunable>(source: &Source, task: &Task) -> Result<String> {
     let file: ControllerFile = source.parse()?;
     let spec = file.parameters::<T>(&source.origin)?;
-    Ok(line_of(&file.contract, &spec))
+    Ok(line_of(&file.contract, Some(task), &spec))
 }
 
 /// Written over the controller.
-fn comment(plan: &Plan<'_>, found: &Found) -> String {
+fn comment(task: &Task, plan: &Plan<'_>, found: &Found) -> String {
     format!(
-        "Optimised by CMA-ES over {} starts in varied worlds, seed {}, {} evaluations: {} reached, cost {:.4}.",
-        found.starts, plan.seed, found.evaluations, found.best.reached, found.best.cost
+        "Optimised by CMA-ES over {}, seed {}, {} evaluations.",
+        task.starts_in_words(found.starts),
+        plan.seed,
+        found.evaluations,
     )
 }

@@ -2,11 +2,12 @@
 //!
 //! RON → [`Disturbance`] (validated). One file a controller; those of the humanoid are shipped.
 
-use aplomb_controllers::target::{NamedAngles, joints_named};
+use aplomb_controllers::target::{NamedAngles, overlay};
 use aplomb_framework::character::Model;
 use aplomb_framework::control::boundary::MOST_FEATURES;
-use aplomb_framework::input::{Error, Result, Source};
+use aplomb_framework::input::{self, Error, Result, Source, check};
 use aplomb_framework::sensing::Feature;
+use include_dir::{Dir, include_dir};
 use serde::Deserialize;
 
 /// At most this many starts, supervisors or links to draw from.
@@ -110,41 +111,13 @@ pub struct Disturbance {
     pub unharmed: Option<Unharmed>,
 }
 
-/// The shipped ones: controller and text.
-const SHIPPED: &[(&str, &str)] = &[
-    ("balance", include_str!("../../disturbances/balance.ron")),
-    (
-        "protective_step",
-        include_str!("../../disturbances/protective_step.ron"),
-    ),
-    ("fall", include_str!("../../disturbances/fall.ron")),
-    ("roll", include_str!("../../disturbances/roll.ron")),
-    (
-        "rise_supine",
-        include_str!("../../disturbances/rise_supine.ron"),
-    ),
-    (
-        "rise_sitting",
-        include_str!("../../disturbances/rise_sitting.ron"),
-    ),
-    (
-        "rise_prone",
-        include_str!("../../disturbances/rise_prone.ron"),
-    ),
-    (
-        "rise_hands_and_feet",
-        include_str!("../../disturbances/rise_hands_and_feet.ron"),
-    ),
-    (
-        "rise_kneeling",
-        include_str!("../../disturbances/rise_kneeling.ron"),
-    ),
-];
+/// The shipped ones, each named after its controller.
+static SHIPPED: Dir = include_dir!("$CARGO_MANIFEST_DIR/disturbances");
 
 /// Whether the character of a shipped controller has a shipped disturbance.
 #[must_use]
 pub fn is_shipped(controller: &str) -> bool {
-    SHIPPED.iter().any(|(name, _)| *name == controller)
+    SHIPPED.contains(format!("{controller}.ron"))
 }
 
 /// The shipped disturbance of a controller.
@@ -152,14 +125,11 @@ pub fn is_shipped(controller: &str) -> bool {
 /// # Errors
 /// [`Error::Unknown`] with those that there are.
 pub fn shipped(controller: &str) -> Result<Source> {
-    let names = || SHIPPED.iter().map(|(name, _)| *name);
-    let found = SHIPPED.iter().find(|(name, _)| *name == controller);
+    let all = input::shipped(&SHIPPED);
+    let found = all.iter().find(|(name, _)| *name == controller);
     let (name, text) = found.ok_or_else(|| {
-        Error::unknown(
-            "shipped disturbance for the controller",
-            controller,
-            names(),
-        )
+        let names = all.iter().map(|(name, _)| *name);
+        Error::unknown("shipped disturbance for the controller", controller, names)
     })?;
     Ok(Source::new(
         format!("built-in disturbances/{name}.ron"),
@@ -173,65 +143,72 @@ impl Disturbance {
     /// # Errors
     /// Malformed text; unknown features, joints or links; numbers out of bounds; empty lists.
     pub fn parse(source: &Source, model: &Model) -> Result<Self> {
-        let mut d: Self = source.parse()?;
-        let bad = |needle: &str, problem: String, accepted: &str| {
-            Err(source.invalid(needle, needle, problem, accepted))
-        };
-        for (field, count, most) in [
-            ("features", d.features.len(), MOST_FEATURES),
-            ("starts", d.starts.len(), MOST),
-            ("during", d.during.len(), MOST),
-            ("links", d.force.links.len(), MOST),
-        ] {
-            if !(1..=most).contains(&count) {
-                return bad(field, format!("a list of {count}"), &format!("1 to {most}"));
-            }
-        }
-        for (i, f) in d.features.iter().enumerate() {
-            if d.features[..i].contains(f) {
-                return bad("features", format!("'{f}' twice"), "each feature once");
-            }
-        }
-        let within = |name: &'static str, value: f64, low: f64, high: f64| {
-            if (low..=high).contains(&value) {
-                return Ok(());
-            }
-            let accepted = format!("{low} to {high}");
-            Err(source.invalid(name, name, value, accepted))
-        };
-        let pair = |name: &'static str, [low, high]: [f64; 2], most: f64| {
-            within(name, low, 0.0, most).and(within(name, high, low.clamp(0.0, most), most))
-        };
-        for start in &d.starts {
-            within("pitch", start.pitch, -7.0, 7.0)?;
-            within("tilt", start.tilt, 0.0, 7.0)?;
-            within("spread", start.spread, 0.0, 7.0)?;
-            pair("lift", start.lift, 10.0)?;
-            for (joint, angle) in &start.angles {
-                within("angles", *angle, -7.0, 7.0)?;
-                joints_named(model, joint).map_err(|e| e.at(&source.place(joint)))?;
-            }
-        }
-        for link in &d.force.links {
-            model
-                .link_index(link)
-                .map_err(|e| e.at(&source.place(link)))?;
-        }
-        within("most", d.force.most, 0.0, STRONGEST)?;
-        within("rise", d.force.rise, 0.0, any_direction())?;
-        pair("time", d.force.time, 10.0)?;
-        within("offset", d.offset, 0.0, 7.0)?;
-        within("pause", d.pause[0], -10.0, 60.0)?;
-        within("pause", d.pause[1], d.pause[0].clamp(-10.0, 60.0), 60.0)?;
-        within("within", d.within, 0.1, 60.0)?;
-        for feature in &mut d.features {
-            let name = feature.to_string();
-            feature
-                .resolve(model)
-                .map_err(|e| e.at(&source.place(&name)))?;
-        }
-        Ok(d)
+        let mut disturbance: Self = source.parse()?;
+        let resolved = disturbance.resolve(model);
+        resolved.map_err(|e| source.locate(e))?;
+        Ok(disturbance)
     }
+
+    /// Checks every bound and looks up the joints of the features.
+    fn resolve(&mut self, model: &Model) -> Result<()> {
+        check::count(
+            "features",
+            self.features.len(),
+            1..=MOST_FEATURES,
+            "features",
+        )?;
+        check::count("starts", self.starts.len(), 1..=MOST, "starts")?;
+        check::count("during", self.during.len(), 1..=MOST, "supervisors")?;
+        for (i, start) in self.starts.iter().enumerate() {
+            start.check(model).map_err(|e| e.inside(("starts", i)))?;
+        }
+        self.force.check(model).map_err(|e| e.inside("force"))?;
+        check::within("offset", self.offset, 0.0..=7.0)?;
+        let [shortest, longest] = self.pause;
+        check::within(("pause", 0), shortest, -10.0..=60.0)?;
+        check::within(("pause", 1), longest, shortest..=60.0)?;
+        check::within("within", self.within, 0.1..=60.0)?;
+        for i in 0..self.features.len() {
+            let of = |e: Error| e.inside(("features", i));
+            let (before, rest) = self.features.split_at_mut(i);
+            if before.contains(&rest[0]) {
+                let problem = format!("'{}' a second time", rest[0]);
+                return Err(of(Error::refused("", problem, "each feature once")));
+            }
+            rest[0].resolve(model).map_err(of)?;
+        }
+        Ok(())
+    }
+}
+
+impl Nominal {
+    fn check(&self, model: &Model) -> Result<()> {
+        check::within("pitch", self.pitch, -7.0..=7.0)?;
+        check::within("tilt", self.tilt, 0.0..=7.0)?;
+        check::within("spread", self.spread, 0.0..=7.0)?;
+        ordered("lift", self.lift)?;
+        let mut pose = vec![0.0; model.joint_count()];
+        overlay(model, &self.angles, &mut pose).map_err(|e| e.inside("angles"))
+    }
+}
+
+impl Force {
+    fn check(&self, model: &Model) -> Result<()> {
+        check::count("links", self.links.len(), 1..=MOST, "links")?;
+        for (i, link) in self.links.iter().enumerate() {
+            let known = model.link_index(link);
+            known.map_err(|e| e.inside(("links", i)))?;
+        }
+        check::within("most", self.most, 0.0..=STRONGEST)?;
+        check::within("rise", self.rise, 0.0..=any_direction())?;
+        ordered("time", self.time)
+    }
+}
+
+/// Two numbers in order, from 0 to 10.
+fn ordered(field: &str, [low, high]: [f64; 2]) -> Result<()> {
+    check::within((field, 0), low, 0.0..=10.0)?;
+    check::within((field, 1), high, low..=10.0)
 }
 
 #[cfg(test)]
@@ -241,7 +218,7 @@ mod tests {
     #[test]
     fn the_shipped_ones_fit_the_humanoid() {
         let model = Model::load("humanoid").unwrap();
-        for (name, _) in SHIPPED {
+        for (name, _) in input::shipped(&SHIPPED) {
             let d = Disturbance::parse(&shipped(name).unwrap(), &model).unwrap();
             assert!(d.within > 0.0 && is_shipped(name));
         }

@@ -9,6 +9,7 @@ use aplomb_controllers::target::overlay;
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Controller, Supervisor};
 use aplomb_framework::input::Result;
+use aplomb_framework::math::{cos, sin};
 use aplomb_framework::run::Simulation;
 use aplomb_framework::scenario::{Scenario, Start};
 use aplomb_framework::world::Settings;
@@ -46,7 +47,7 @@ impl Disturbed {
     ) -> Result<Self> {
         let pose = |start: &Nominal| {
             let mut pose = vec![0.0; model.joint_count()];
-            overlay(model, &start.angles, "angles", [-7.0, 7.0], &mut pose).map(|()| pose)
+            overlay(model, &start.angles, &mut pose).map(|()| pose)
         };
         Ok(Self {
             poses: disturbance.starts.iter().map(pose).collect::<Result<_>>()?,
@@ -106,7 +107,7 @@ impl Disturbed {
         run.shove(
             0,
             link,
-            [sign * impulse * rise.cos(), impulse * rise.sin()],
+            [sign * impulse * cos(rise), impulse * sin(rise)],
             time,
         )?;
         run.run((time + rng.gen_range(d.pause[0]..=d.pause[1])).max(SOONEST));

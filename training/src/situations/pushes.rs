@@ -12,6 +12,7 @@ use aplomb_framework::scenario::Scenario;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::situations::worlds::Worlds;
 
@@ -19,7 +20,8 @@ use crate::situations::worlds::Worlds;
 const PUSH_AT: f64 = 0.5;
 
 /// Where a push acts: on the centre of mass of a link that every character has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Site {
     /// The root link, the humanoid's pelvis, where an impulse turns the character least.
     Root,
@@ -43,12 +45,12 @@ impl Site {
 }
 
 /// Pushes in pairs, forward and backward, one pair after the other stronger.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Pushes {
     /// Weakest and strongest, N·s; even steps between.
     pub impulse: [f64; 2],
     /// Where the pairs act, in turn; at the trunk if there is none.
-    pub sites: &'static [Site],
+    pub sites: Vec<Site>,
     /// How many.
     pub count: usize,
     /// Fixes worlds and moments.
@@ -67,7 +69,7 @@ impl Pushes {
     /// # Errors
     /// A supervisor for another character.
     pub fn begin(
-        self,
+        &self,
         model: &Arc<Model>,
         supervisor: &Supervisor,
         worlds: Worlds,
@@ -109,7 +111,7 @@ mod tests {
     fn pairs_go_both_ways_evenly_over_the_impulses_and_the_sites() {
         let pushes = Pushes {
             impulse: [60.0, 120.0],
-            sites: &[Site::Trunk, Site::Head],
+            sites: vec![Site::Trunk, Site::Head],
             count: 8,
             seed: 0,
         };

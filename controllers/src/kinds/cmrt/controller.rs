@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Command, Contract, Controller, ControllerFile, Progress, Spec};
-use aplomb_framework::input::{Result, Source};
+use aplomb_framework::input::{Error, Result, Source, check};
 use aplomb_framework::sensing::Sensors;
 use serde::{Deserialize, Serialize};
 
@@ -26,7 +26,7 @@ use crate::kinds::cmrt::trajectory;
 use crate::kinds::cmrt::trajectory::Cmrt;
 use crate::kinds::cmrt::waypoint::{Waypoint, blend, foot_named, waypoint};
 use crate::momentum::{GLIDE, Gains, Swing, Upright, glided};
-use crate::target::{NamedAngles, bounded, overlay};
+use crate::target::{NamedAngles, overlay};
 
 /// At most this many motions in a row.
 pub(super) const MOST_MOTIONS: usize = 16;
@@ -83,32 +83,35 @@ impl CmrtSpec {
     /// # Errors
     /// As [`Spec::build`].
     pub fn controller(self, contract: Contract, model: &Arc<Model>) -> Result<CmrtController> {
-        let place = contract.name.clone();
-        let count = self.motions.len() as f64;
-        bounded(&place, "motions", count, 1.0, MOST_MOTIONS as f64)?;
+        let count = self.motions.len();
+        check::count("motions", count, 1..=MOST_MOTIONS, "motions")?;
         let balance = match self.balance {
             Some(balance) => balance,
             None => shipped_balance()?,
         };
-        let upright = balance.upright(&place, model)?;
+        let upright = balance.upright(model).map_err(|e| e.inside("balance"))?;
         let mut begin = upright.reference.pose.clone();
-        let field = format!("{place}: begin");
-        overlay(model, &self.begin, &field, [-7.0, 7.0], &mut begin)?;
+        overlay(model, &self.begin, &mut begin).map_err(|e| e.inside("begin"))?;
         let mut waypoints = vec![waypoint(model, &begin)];
         let mut before = 0.0;
         for (i, motion) in self.motions.iter().enumerate() {
-            let at = format!("{place}: motions[{i}]");
-            motion.validate(&at)?;
-            bounded(&at, "start", motion.start, before, 3600.0)?;
+            let of = |e: Error| e.inside(("motions", i));
+            motion.validate().map_err(of)?;
+            check::within("start", motion.start, before..=3600.0).map_err(of)?;
             before = motion.start;
-            contract.check_parameters(motion.timed_by.iter().chain(&motion.parameter), &at)?;
+            let known = contract.check_parameter("timed_by", motion.timed_by.as_ref());
+            known.map_err(of)?;
+            let known = contract.check_parameter("parameter", motion.parameter.as_ref());
+            known.map_err(of)?;
             for (k, key) in motion.keys.iter().enumerate() {
+                let of = |e: Error| of(e.inside(("keys", k)));
                 let mut pose = waypoints[waypoints.len() - 1].pose.clone();
-                let field = format!("{at}: keys[{k}].pose");
-                overlay(model, &key.pose, &field, [-7.0, 7.0], &mut pose)?;
+                let posed = overlay(model, &key.pose, &mut pose);
+                posed.map_err(|e| of(e.inside("pose")))?;
                 let lifted = key.lifted.as_deref().map(|l| foot_named(model, l));
+                let lifted = lifted.transpose().map_err(|e| of(e.inside("lifted")))?;
                 waypoints.push(Waypoint {
-                    lifted: lifted.transpose()?,
+                    lifted,
                     motion: i,
                     from: key.from,
                     to: key.to,

@@ -3,14 +3,15 @@
 //!
 //! [`Motion`] + the command's parameters → [`Timeline`] → phase and weight of the task at a time.
 
-use aplomb_framework::input::Result;
+use aplomb_framework::input::{Error, Result, check};
+use aplomb_framework::math::powf;
 use serde::{Deserialize, Serialize};
 
 use crate::kinds::cmrt::trajectory;
 use crate::kinds::cmrt::trajectory::Cmrt;
 use crate::momentum::Gains;
 use crate::servo::smoothstep;
-use crate::target::{NamedAngles, bounded};
+use crate::target::NamedAngles;
 
 /// At most this many poses a motion.
 pub const MOST_POSES: usize = 32;
@@ -64,16 +65,16 @@ impl Default for GainSchedule {
 }
 
 impl GainSchedule {
-    fn validate(&self, place: &str) -> Result<()> {
+    fn validate(&self) -> Result<()> {
         for (field, value) in [
-            ("schedule.tracking", self.tracking),
-            ("schedule.kt", self.kt),
-            ("schedule.dt", self.dt),
-            ("schedule.linear", self.linear),
-            ("schedule.kl", self.kl),
-            ("schedule.dl", self.dl),
+            ("tracking", self.tracking),
+            ("kt", self.kt),
+            ("dt", self.dt),
+            ("linear", self.linear),
+            ("kl", self.kl),
+            ("dl", self.dl),
         ] {
-            bounded(place, field, value, 0.01, 1000.0)?;
+            check::within(field, value, 0.01..=1000.0)?;
         }
         Ok(())
     }
@@ -82,7 +83,7 @@ impl GainSchedule {
     /// of powers of ten.
     #[must_use]
     pub fn scaled(&self, gains: &Gains, part: f64) -> Gains {
-        let by = |factor: f64| factor.powf(part);
+        let by = |factor: f64| powf(factor, part);
         Gains {
             tracking: gains.tracking * by(self.tracking),
             kt: gains.kt * by(self.kt),
@@ -137,32 +138,26 @@ impl Motion {
     /// # Errors
     /// Times, phases or gains out of bounds; poses out of order; what the trajectories' check
     /// refuses.
-    pub fn validate(&self, place: &str) -> Result<()> {
-        bounded(place, "start", self.start, 0.0, 3600.0)?;
-        bounded(place, "length", self.length, 0.1, 600.0)?;
-        bounded(place, "preparation", self.preparation, 0.0, self.length)?;
+    pub fn validate(&self) -> Result<()> {
+        check::within("start", self.start, 0.0..=3600.0)?;
+        check::within("length", self.length, 0.1..=600.0)?;
+        check::within("preparation", self.preparation, 0.0..=self.length)?;
         let rest = self.length - self.preparation;
-        bounded(place, "task", self.task, 0.01, rest)?;
-        bounded(
-            place,
-            "keys",
-            self.keys.len() as f64,
-            0.0,
-            MOST_POSES as f64,
-        )?;
+        check::within("task", self.task, 0.01..=rest)?;
+        check::count("keys", self.keys.len(), 0..=MOST_POSES, "poses")?;
         let mut before = 0.0;
         for (i, key) in self.keys.iter().enumerate() {
-            bounded(place, &format!("keys[{i}].from"), key.from, before, 3.0)?;
-            let least = key.from + 1e-3;
-            bounded(place, &format!("keys[{i}].to"), key.to, least, 3.0)?;
+            let of = |e: Error| e.inside(("keys", i));
+            check::within("from", key.from, before..=3.0).map_err(of)?;
+            check::within("to", key.to, key.from + 1e-3..=3.0).map_err(of)?;
             before = key.to;
         }
         if let Some([from, to]) = self.grips {
-            bounded(place, "grips[0]", from, 0.0, 3.0)?;
-            bounded(place, "grips[1]", to, from, 3.0)?;
+            check::within(("grips", 0), from, 0.0..=3.0)?;
+            check::within(("grips", 1), to, from..=3.0)?;
         }
-        self.schedule.validate(place)?;
-        trajectory::validate(&self.cmrts, place)
+        self.schedule.validate().map_err(|e| e.inside("schedule"))?;
+        trajectory::validate(&self.cmrts).map_err(|e| e.inside("cmrts"))
     }
 
     /// When its phases are, if the task takes `task` s; it is shortened to leave some decay.
@@ -266,9 +261,9 @@ mod tests {
         };
         let mut bad = motion();
         bad.keys = vec![key(1.0, 2.0), key(1.5, 2.5)];
-        let told = bad.validate("bend").unwrap_err().to_string();
+        let told = bad.validate().unwrap_err().to_string();
         assert!(told.contains("keys[1].from"), "{told}");
         bad.keys = vec![key(1.0, f64::NAN)];
-        assert!(bad.validate("bend").is_err());
+        assert!(bad.validate().is_err());
     }
 }

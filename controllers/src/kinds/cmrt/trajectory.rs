@@ -4,10 +4,8 @@
 //! (parameter, knots, control points) … → the trajectory for any value in between, by interpolating
 //! knots and control points (2017 paper, section 4.2).
 
-use aplomb_framework::input::{Error, Result};
+use aplomb_framework::input::{Error, FieldPath, Result, check};
 use serde::{Deserialize, Serialize};
-
-use crate::target::bounded;
 
 /// At most this many knots beside the two ends.
 pub const MOST_KNOTS: usize = 8;
@@ -48,31 +46,28 @@ impl Cmrt {
     ///
     /// # Errors
     /// No knots or too many, knots out of order or too near to each other, numbers out of bounds.
-    pub fn validate(&self, place: &str) -> Result<()> {
-        let field = |name: &str| format!("cmrts.{name}");
-        bounded(place, &field("length"), self.length, 0.1, 600.0)?;
-        bounded(place, &field("value"), self.value, -1e6, 1e6)?;
+    pub fn validate(&self) -> Result<()> {
+        check::within("length", self.length, 0.1..=600.0)?;
+        check::within("value", self.value, -1e6..=1e6)?;
         let knots = self.times.len();
-        bounded(place, &field("times"), knots as f64, 1.0, MOST_KNOTS as f64)?;
-        if self.displacements.len() != knots {
-            let accepted = format!("{knots}, one a knot");
-            let found = self.displacements.len();
-            return Err(Error::invalid(
-                place,
-                field("displacements"),
-                found,
-                accepted,
-            ));
-        }
-        for d in &self.displacements {
-            bounded(place, &field("displacements"), *d, -FARTHEST, FARTHEST)?;
+        check::count("times", knots, 1..=MOST_KNOTS, "knots")?;
+        let found = self.displacements.len();
+        let right = knots..=knots;
+        check::count("displacements", found, right, "numbers, one a knot")?;
+        for (i, d) in self.displacements.iter().enumerate() {
+            check::within(("displacements", i), *d, -FARTHEST..=FARTHEST)?;
         }
         let gap = (1.0 - 1e-6) * LEAST_GAP * self.length;
         let mut before = 0.0;
-        for t in self.times.iter().chain([&self.length]) {
+        for (i, t) in self.times.iter().chain([&self.length]).enumerate() {
             if t.is_nan() || t - before < gap {
+                let field = if i < knots {
+                    FieldPath::from(("times", i))
+                } else {
+                    "length".into()
+                };
                 let accepted = format!("knots in order, at least {gap:.3} s apart");
-                return Err(Error::invalid(place, field("times"), t, accepted));
+                return Err(Error::refused(field, t, accepted));
             }
             before = *t;
         }
@@ -96,25 +91,19 @@ impl Cmrt {
 ///
 /// # Errors
 /// What [`Cmrt::validate`] refuses; members out of order or of unequal kind.
-pub fn validate(family: &[Cmrt], place: &str) -> Result<()> {
-    for member in family {
-        member.validate(place)?;
+pub fn validate(family: &[Cmrt]) -> Result<()> {
+    for (i, member) in family.iter().enumerate() {
+        member.validate().map_err(|e| e.inside(i))?;
     }
-    for pair in family.windows(2) {
+    for (i, pair) in family.windows(2).enumerate() {
+        let of = |e: Error| e.inside(i + 1);
         if pair[0].value >= pair[1].value {
             let accepted = format!("more than {}, the one before", pair[0].value);
-            return Err(Error::invalid(
-                place,
-                "cmrts.value",
-                pair[1].value,
-                accepted,
-            ));
+            return Err(of(Error::refused("value", pair[1].value, accepted)));
         }
         let (knots, found) = (pair[0].times.len(), pair[1].times.len());
-        if knots != found {
-            let accepted = format!("{knots} knots as the others");
-            return Err(Error::invalid(place, "cmrts.times", found, accepted));
-        }
+        let as_many = check::count("times", found, knots..=knots, "knots as the others");
+        as_many.map_err(of)?;
     }
     Ok(())
 }
@@ -158,9 +147,9 @@ mod tests {
 
     #[test]
     fn what_is_no_curve_is_refused() {
-        let refusal = |c: Cmrt| validate(&[c], "bend").unwrap_err().to_string();
+        let refusal = |c: Cmrt| validate(&[c]).unwrap_err().to_string();
         let good = member(1.0, 0.5, 0.1);
-        assert!(validate(&[good.clone(), member(2.0, 0.4, 0.0)], "bend").is_ok());
+        assert!(validate(&[good.clone(), member(2.0, 0.4, 0.0)]).is_ok());
         let mut bad = good.clone();
         bad.times = vec![1.0, 0.5];
         assert!(refusal(bad).contains("in order"));
@@ -178,6 +167,6 @@ mod tests {
         bad.displacements = vec![0.0; 9];
         assert!(refusal(bad).contains("1 to 8"));
         let unordered = [good.clone(), good];
-        assert!(validate(&unordered, "bend").is_err());
+        assert!(validate(&unordered).is_err());
     }
 }

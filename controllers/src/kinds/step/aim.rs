@@ -2,6 +2,7 @@
 //!
 //! sensors + phase → the reference of momentum control.
 
+use aplomb_framework::math::{exp, square};
 use aplomb_framework::sensing::Sensors;
 
 use crate::kinds::step::controller::{DRAW, LEANING, LONGER, Phase, Step};
@@ -26,8 +27,7 @@ impl Step {
         let [rear, front] = ends(now, 1 - foot);
         let edge = if forward { front } else { rear };
         let left = (p.swing_time - (now.time - self.since)).max(0.0);
-        let run =
-            ((now.capture_point - edge) * (now.pendulum_rate() * left).exp()).clamp(-2.0, 2.0);
+        let run = ((now.capture_point - edge) * exp(now.pendulum_rate() * left)).clamp(-2.0, 2.0);
         let sign = if forward { 1.0 } else { -1.0 };
         let stance = sole(now, 1 - foot)[0];
         // Who has to step again has stepped too short.
@@ -80,7 +80,7 @@ impl Step {
         };
         let (rear, front) = (rear - self.spec.bend, front + self.spec.bend);
         let wish = g.kl * (self.over - c) - g.dl * now.com_velocity[0];
-        let rate = now.pendulum_rate().powi(2);
+        let rate = square(now.pendulum_rate());
         let given = wish.max(rate * (c - front)).min(rate * (c - rear));
         c + given / g.kl.max(1.0)
     }

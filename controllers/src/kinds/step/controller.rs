@@ -72,16 +72,14 @@ impl Spec for StepSpec {
     const KIND: &'static str = "step";
 
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
-        let place = contract.name.clone();
         let upright = Upright::new(
-            &place,
             model,
             Formulation::Inequality,
             self.gains.clone(),
             &self.pose,
             &self.joint_weights,
         )?;
-        self.check(&place, model)?;
+        self.check(model)?;
         Ok(Box::new(Step {
             upright,
             leg: model.standing_height(),

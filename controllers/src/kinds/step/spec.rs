@@ -1,11 +1,11 @@
 //! The numbers of a step, and their bounds.
 
 use aplomb_framework::character::Model;
-use aplomb_framework::input::Result;
+use aplomb_framework::input::{Error, Result, check};
 use serde::{Deserialize, Serialize};
 
 use crate::momentum::Gains;
-use crate::target::{NamedAngles, bounded};
+use crate::target::NamedAngles;
 
 /// How a foot is put down in one direction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -21,6 +21,16 @@ pub struct Placement {
     pub lift: f64,
     /// Pitch of the root while the step is under way, rad.
     pub lean: f64,
+}
+
+impl Placement {
+    fn check(&self) -> Result<()> {
+        check::within("swing_time", self.swing_time, 0.1..=1.0)?;
+        check::within("reach", self.reach, 0.0..=3.0)?;
+        check::within("beyond", self.beyond, -0.5..=0.5)?;
+        check::within("lift", self.lift, 0.0..=0.5)?;
+        check::within("lean", self.lean, -1.0..=1.0)
+    }
 }
 
 /// Parameters of [`Step`](super::Step) in a file.
@@ -60,18 +70,13 @@ pub struct StepSpec {
 }
 
 impl StepSpec {
-    /// Checks every number but those of the gains; `place` names the controller in messages.
+    /// Checks every number but those of the gains.
     ///
     /// # Errors
     /// Numbers out of bounds; a character without two feet.
-    pub(super) fn check(&self, place: &str, model: &Model) -> Result<()> {
-        for (name, p) in [("forward", &self.forward), ("backward", &self.backward)] {
-            let at = format!("{place}: {name}");
-            bounded(&at, "swing_time", p.swing_time, 0.1, 1.0)?;
-            bounded(&at, "reach", p.reach, 0.0, 3.0)?;
-            bounded(&at, "beyond", p.beyond, -0.5, 0.5)?;
-            bounded(&at, "lift", p.lift, 0.0, 0.5)?;
-            bounded(&at, "lean", p.lean, -1.0, 1.0)?;
+    pub(super) fn check(&self, model: &Model) -> Result<()> {
+        for (field, placement) in [("forward", &self.forward), ("backward", &self.backward)] {
+            placement.check().map_err(|e| e.inside(field))?;
         }
         for (field, value, low, high) in [
             ("longest", self.longest, 0.0, 3.0),
@@ -85,14 +90,13 @@ impl StepSpec {
             ("bend", self.bend, 0.0, 2.0),
             ("climb", self.climb, 0.01, 10.0),
         ] {
-            bounded(place, field, value, low, high)?;
+            check::within(field, value, low..=high)?;
         }
-        bounded(
-            place,
-            "feet of the character",
-            model.feet.len() as f64,
-            2.0,
-            2.0,
-        )
+        let feet = model.feet.len();
+        if feet != 2 {
+            let problem = format!("for a character with {feet} feet");
+            return Err(Error::refused("", problem, "one with 2"));
+        }
+        Ok(())
     }
 }

@@ -2,6 +2,7 @@
 //! enter and leave.
 //!
 //! H → J; a normal n → d = Jᵀ n → directions z of x and r of the multipliers.
+use aplomb_framework::math::hypot;
 
 /// Relative length below which a normal's free part is taken to be zero.
 const DEPENDENT: f64 = 1e-9;
@@ -137,7 +138,7 @@ impl Factor {
         }
         for i in k..q - 1 {
             let (a, b) = (self.r_factor[i * n + i], self.r_factor[i * n + i + 1]);
-            let length = a.hypot(b);
+            let length = hypot(a, b);
             let (c, s) = (a / length, b / length);
             for column in self.r_factor[i * n..(q - 1) * n].chunks_exact_mut(n) {
                 (column[i], column[i + 1]) = rotate(c, s, column[i], column[i + 1]);

@@ -5,25 +5,30 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use include_dir::{Dir, include_dir};
+
 use crate::character::kinematics::Kinematics;
 use crate::character::model::definition::{Foot, Hand, Joint, Link, MOST_LINKS, Model};
 use crate::character::model::schema::{CharacterFile, JointEntry, LinkEntry};
-use crate::character::model::tree::{name, quoted};
 use crate::character::model::{digest, tree};
 use crate::character::shape::{Point, Shape};
 use crate::character::state::State;
-use crate::input::{Error, Result, Source};
+use crate::input::{Error, FieldPath, Result, Source, check, shipped};
 
-const POSITIVE: &str = "a finite number above 0 and at most 1e6";
-const LENGTH: &str = "finite, at most 100 m either way";
+/// One file each.
+static CHARACTERS: Dir = include_dir!("$CARGO_MANIFEST_DIR/characters");
+
+/// The largest mass, inertia, torque or gain.
+const MOST: f64 = 1e6;
+/// The furthest a point may be from its frame's origin, m.
+const FURTHEST: f64 = 100.0;
 
 impl Model {
-    /// The built-in characters by name.
-    pub const BUILT_IN: [(&'static str, &'static str); 3] = [
-        ("humanoid", include_str!("../../../characters/humanoid.ron")),
-        ("lion", include_str!("../../../characters/lion.ron")),
-        ("sumo", include_str!("../../../characters/sumo.ron")),
-    ];
+    /// The built-in characters: name and text, by name.
+    #[must_use]
+    pub fn built_in() -> Vec<(&'static str, &'static str)> {
+        shipped(&CHARACTERS)
+    }
 
     /// A built-in character by name, or a character file by path.
     ///
@@ -38,11 +43,12 @@ impl Model {
     /// # Ok::<(), aplomb_framework::Error>(())
     /// ```
     pub fn load(name_or_path: &str) -> Result<Arc<Self>> {
-        let source = match Self::BUILT_IN.iter().find(|(n, _)| *n == name_or_path) {
+        let built_in = Self::built_in();
+        let source = match built_in.iter().find(|(n, _)| *n == name_or_path) {
             Some((name, text)) => Source::new(format!("built-in {name}"), *text),
             None => match Source::read(Path::new(name_or_path)) {
                 Err(Error::Read { reason, .. }) if !Path::new(name_or_path).exists() => {
-                    let known = Self::BUILT_IN.iter().map(|(n, _)| *n);
+                    let known = built_in.iter().map(|(n, _)| *n);
                     return Err(Error::Read {
                         path: name_or_path.into(),
                         reason: format!(
@@ -62,7 +68,7 @@ impl Model {
     /// # Errors
     /// [`Error::Syntax`] or [`Error::Invalid`] with the line, the field and what is accepted.
     pub fn parse(source: &Source) -> Result<Self> {
-        crate::character::model::file::read(source)
+        read(source)
     }
 
     /// Builds the model from its validated parts and derives what depends on them.
@@ -109,68 +115,59 @@ impl Model {
 }
 
 /// Parses and validates a character.
-pub(crate) fn read(source: &Source) -> Result<Model> {
+fn read(source: &Source) -> Result<Model> {
     let file: CharacterFile = source.parse()?;
-    name(source, "name", &file.name)?;
-    let count = file.links.len();
-    if count == 0 || count > MOST_LINKS {
-        return Err(source.invalid(
-            "links",
-            "links",
-            format!("a list of {count}"),
-            format!("1 to {MOST_LINKS} links"),
-        ));
-    }
-    tree::check(source, &file.links)?;
+    model(file, &source.text).map_err(|e| source.locate(e))
+}
+
+fn model(file: CharacterFile, text: &str) -> Result<Model> {
+    tree::name(&file.name).map_err(|e| e.inside("name"))?;
+    check::count("links", file.links.len(), 1..=MOST_LINKS, "links")?;
+    tree::check(&file.links)?;
     let names: Vec<&str> = file.links.iter().map(|l| l.name.as_str()).collect();
     let find = |field: &str, name: &str| {
-        names.iter().position(|n| *n == name).ok_or_else(|| {
-            let place = source.place(field);
-            Error::unknown("link", name, names.iter().copied()).at(&format!("{place}: {field}"))
-        })
+        let place = names.iter().position(|n| *n == name);
+        place.ok_or_else(|| Error::unknown("link", name, names.iter().copied()).inside(field))
     };
     let trunk = find("trunk", &file.trunk)?;
     let head = find("head", &file.head)?;
     if file.feet.is_empty() {
-        return Err(source.invalid(
-            "feet",
-            "feet",
-            "missing",
-            "at least one (link: …, heel: (x, y), toe: (x, y))",
-        ));
+        let accepted = "at least one (link: …, heel: (x, y), toe: (x, y))";
+        return Err(Error::refused("feet", "missing", accepted));
     }
     let mut feet = Vec::with_capacity(file.feet.len());
     for (i, f) in file.feet.iter().enumerate() {
-        point(source, &format!("feet[{i}].heel"), &f.link, f.heel)?;
-        point(source, &format!("feet[{i}].toe"), &f.link, f.toe)?;
-        if f.toe[0] - f.heel[0] < 1e-3 {
-            return Err(source.invalid(
-                "feet",
-                format!("feet[{i}].toe"),
-                format!("{} m ahead of the heel", f.toe[0] - f.heel[0]),
-                "a toe at least 1 mm ahead of the heel",
-            ));
+        let of = |e: Error| e.inside(("feet", i));
+        let link = find("link", &f.link).map_err(of)?;
+        point("heel", f.heel).map_err(of)?;
+        point("toe", f.toe).map_err(of)?;
+        let ahead = f.toe[0] - f.heel[0];
+        if ahead < 1e-3 {
+            let accepted = "a toe at least 1 mm ahead of the heel";
+            let problem = format!("{ahead} m ahead of the heel");
+            return Err(of(Error::refused("toe", problem, accepted)));
         }
         feet.push(Foot {
-            link: find("feet", &f.link)?,
+            link,
             heel: f.heel,
             toe: f.toe,
         });
     }
     let mut hands = Vec::with_capacity(file.hands.len());
     for (i, h) in file.hands.iter().enumerate() {
-        point(source, &format!("hands[{i}].tip"), &h.link, h.tip)?;
+        let of = |e: Error| e.inside(("hands", i));
+        point("tip", h.tip).map_err(of)?;
         hands.push(Hand {
-            link: find("hands", &h.link)?,
+            link: find("link", &h.link).map_err(of)?,
             tip: h.tip,
         });
     }
-    let mut links = Vec::with_capacity(count);
-    for entry in &file.links {
-        links.push(link(source, entry, &names)?);
+    let mut links = Vec::with_capacity(file.links.len());
+    for (i, entry) in file.links.iter().enumerate() {
+        links.push(link(entry, &names).map_err(|e| e.inside(("links", i)))?);
     }
     Ok(Model::assemble(
-        source.text.clone(),
+        text.to_owned(),
         file.name,
         links,
         feet,
@@ -180,32 +177,15 @@ pub(crate) fn read(source: &Source) -> Result<Model> {
     ))
 }
 
-fn link(source: &Source, entry: &LinkEntry, names: &[&str]) -> Result<Link> {
-    let who = entry.name.as_str();
-    let field = |f: &str| format!("{who}.{f}");
-    positive(source, &field("mass"), who, entry.mass)?;
-    positive(source, &field("inertia"), who, entry.inertia)?;
-    point(source, &field("com"), who, entry.com)?;
-    match entry.shape {
-        Shape::Capsule { radius, from, to } => {
-            positive(source, &field("shape.radius"), who, radius)?;
-            point(source, &field("shape.from"), who, from)?;
-            point(source, &field("shape.to"), who, to)?;
-        }
-        Shape::Box { half, centre } => {
-            positive(source, &field("shape.half.0"), who, half[0])?;
-            positive(source, &field("shape.half.1"), who, half[1])?;
-            point(source, &field("shape.centre"), who, centre)?;
-        }
-    }
-    let joint = entry
-        .joint
-        .as_ref()
-        .map(|j| joint(source, j, names))
-        .transpose()?;
+fn link(entry: &LinkEntry, names: &[&str]) -> Result<Link> {
+    check::above("mass", entry.mass, 0.0, MOST)?;
+    check::above("inertia", entry.inertia, 0.0, MOST)?;
+    point("com", entry.com)?;
+    shape(entry.shape).map_err(|e| e.inside("shape"))?;
+    let joint = entry.joint.as_ref().map(|j| joint(j, names)).transpose();
     Ok(Link {
         name: entry.name.clone(),
-        joint,
+        joint: joint.map_err(|e| e.inside("joint"))?,
         mass: entry.mass,
         com: entry.com,
         inertia: entry.inertia,
@@ -213,28 +193,33 @@ fn link(source: &Source, entry: &LinkEntry, names: &[&str]) -> Result<Link> {
     })
 }
 
-fn joint(source: &Source, entry: &JointEntry, names: &[&str]) -> Result<Joint> {
-    let who = entry.name.as_str();
-    let field = |f: &str| format!("{who}.{f}");
-    point(source, &field("anchor"), who, entry.anchor)?;
+fn shape(shape: Shape) -> Result<()> {
+    match shape {
+        Shape::Capsule { radius, from, to } => {
+            check::above("radius", radius, 0.0, MOST)?;
+            point("from", from)?;
+            point("to", to)
+        }
+        Shape::Box { half, centre } => {
+            check::above(("half", 0), half[0], 0.0, MOST)?;
+            check::above(("half", 1), half[1], 0.0, MOST)?;
+            point("centre", centre)
+        }
+    }
+}
+
+fn joint(entry: &JointEntry, names: &[&str]) -> Result<Joint> {
+    point("anchor", entry.anchor)?;
     let [low, high] = entry.range;
     let full = std::f64::consts::TAU;
-    if !(low.is_finite()
-        && high.is_finite()
-        && low < high
-        && low.abs() <= full
-        && high.abs() <= full)
-    {
-        return Err(source.invalid(
-            &quoted(who),
-            field("range"),
-            format!("({low}, {high})"),
-            "(low, high) with low < high, both within ±2π",
-        ));
+    if !(-full <= low && low < high && high <= full) {
+        let problem = format!("({low}, {high})");
+        let accepted = "(low, high) with low < high, both within ±2π";
+        return Err(Error::refused("range", problem, accepted));
     }
-    positive(source, &field("torque"), who, entry.torque)?;
-    positive(source, &field("kp"), who, entry.kp)?;
-    positive(source, &field("kd"), who, entry.kd)?;
+    check::above("torque", entry.torque, 0.0, MOST)?;
+    check::above("kp", entry.kp, 0.0, MOST)?;
+    check::above("kd", entry.kd, 0.0, MOST)?;
     Ok(Joint {
         name: entry.name.clone(),
         parent: names.iter().position(|n| *n == entry.parent).unwrap_or(0),
@@ -246,20 +231,8 @@ fn joint(source: &Source, entry: &JointEntry, names: &[&str]) -> Result<Joint> {
     })
 }
 
-fn positive(source: &Source, field: &str, who: &str, value: f64) -> Result<()> {
-    if value.is_finite() && value > 0.0 && value <= 1e6 {
-        Ok(())
-    } else {
-        Err(source.invalid(&quoted(who), field, value, POSITIVE))
-    }
-}
-
-fn point(source: &Source, field: &str, who: &str, p: Point) -> Result<()> {
-    if p.iter().all(|c| c.is_finite() && c.abs() <= 100.0) {
-        Ok(())
-    } else {
-        Err(source.invalid(&quoted(who), field, format!("({}, {})", p[0], p[1]), LENGTH))
-    }
+fn point(field: impl Into<FieldPath>, p: Point) -> Result<()> {
+    check::point(p, FURTHEST).map_err(|e| e.inside(field))
 }
 
 #[cfg(test)]
@@ -291,11 +264,12 @@ mod tests {
     fn infinities_and_not_a_number_are_refused_with_field_and_line() {
         let text = changed("mass: 8.936", "mass: NaN");
         assert!(
-            text.starts_with("test.ron:") && text.contains("pelvis.mass is NaN"),
+            text.starts_with("test.ron:") && text.contains("links[0].mass is NaN"),
             "{text}"
         );
         assert!(
-            changed("inertia: 0.4535531586997044", "inertia: inf").contains("torso.inertia is inf")
+            changed("inertia: 0.4535531586997044", "inertia: inf")
+                .contains("links[1].inertia is inf")
         );
         assert!(changed("mass: 8.936", "mass: -1.0").contains("above 0"));
     }
@@ -328,7 +302,7 @@ mod tests {
             "range: (-1.0471975511965976, 1.0471975511965976)",
             "range: (1.0, -1.0)",
         );
-        assert!(text.contains("neck.range is (1, -1)"), "{text}");
+        assert!(text.contains(".joint.range is (1, -1)"), "{text}");
     }
 
     #[test]

@@ -5,10 +5,7 @@
 use crate::character::Model;
 use crate::control::Boundary;
 use crate::control::boundary::{DecisionFunction, MOST_FEATURES, MOST_SUPPORT_VECTORS};
-use crate::input::{Error, Result, shortened};
-
-/// Where a field stands, for messages.
-type Place<'a> = &'a dyn Fn(&str) -> String;
+use crate::input::{Error, Result, check, shortened};
 
 /// Number of monomials in so many features up to a degree: the coefficients of
 /// [`DecisionFunction::Polynomial`].
@@ -18,97 +15,93 @@ pub fn monomials(features: usize, degree: u8) -> usize {
 }
 
 impl Boundary {
-    /// What [`Boundary::resolve`] promises, with the places of the fields.
-    pub(crate) fn resolve_at(&mut self, model: &Model, at: Place<'_>) -> Result<()> {
-        self.check(at)?;
+    /// Looks up the joints that its features name, and checks everything.
+    ///
+    /// # Errors
+    /// As [`Self::parse`], by the way to the field alone; another character than the one it was
+    /// learned with; an unknown joint.
+    pub fn resolve(&mut self, model: &Model) -> Result<()> {
+        self.check()?;
         let name = &model.name;
         if self.character != *name {
             let accepted = format!("'{name}', the character that is to be controlled");
-            return refuse(at, "character", quoted(&self.character), accepted);
+            return Err(Error::refused(
+                "character",
+                quoted(&self.character),
+                accepted,
+            ));
         }
         let digest = model.digest();
         if self.character_digest != digest {
             let accepted = format!("'{digest}', {name} as it is; learn anew after a change to it");
             let found = quoted(&self.character_digest);
-            return refuse(at, "character_digest", found, accepted);
+            return Err(Error::refused("character_digest", found, accepted));
         }
-        for feature in &mut self.features {
-            let name = feature.to_string();
-            feature.resolve(model).map_err(|e| e.at(&at(&name)))?;
+        for (i, feature) in self.features.iter_mut().enumerate() {
+            let named = feature.resolve(model);
+            named.map_err(|e| e.inside(("features", i)))?;
         }
         Ok(())
     }
 
     /// Counts and numbers.
-    pub(crate) fn check(&self, at: Place<'_>) -> Result<()> {
+    pub(super) fn check(&self) -> Result<()> {
         let count = self.features.len();
-        if count == 0 || count > MOST_FEATURES {
-            let accepted = format!("1 to {MOST_FEATURES} features");
-            return refuse(at, "features", format!("a list of {count}"), accepted);
-        }
+        check::count("features", count, 1..=MOST_FEATURES, "features")?;
         for (i, feature) in self.features.iter().enumerate() {
             if self.features[..i].contains(feature) {
                 let problem = format!("'{feature}' a second time");
-                return refuse(at, "features", problem, "no feature twice");
+                let error = Error::refused(("features", i), problem, "no feature twice");
+                return Err(error);
             }
         }
         for (field, values) in [("mean", &self.mean), ("scale", &self.scale)] {
-            counted(at, field, values.len(), count, "one a feature")?;
-            finite(at, field, values)?;
+            numbers(field, values, count, "one a feature")?;
         }
-        if let Some((i, scale)) = first(&self.scale, |s| *s <= 0.0) {
-            return refuse(at, &format!("scale[{i}]"), scale, "above 0");
+        for (i, scale) in self.scale.iter().enumerate() {
+            check::above(("scale", i), *scale, 0.0, f64::INFINITY)?;
         }
-        self.check_decision(at)?;
+        self.decision
+            .check(count)
+            .map_err(|e| e.inside("decision"))?;
         let (slope, offset) = (self.calibration.slope, self.calibration.offset);
         if !(slope.is_finite() && slope <= 0.0) {
             let accepted = "finite, 0 or less: a higher score means a likelier success";
-            return refuse(at, "calibration.slope", slope, accepted);
+            return Err(Error::refused("calibration.slope", slope, accepted));
         }
-        if !offset.is_finite() {
-            return refuse(at, "calibration.offset", offset, "a finite number");
-        }
-        Ok(())
+        check::finite("calibration.offset", offset)
     }
+}
 
-    fn check_decision(&self, at: Place<'_>) -> Result<()> {
-        let count = self.features.len();
-        match &self.decision {
-            DecisionFunction::Polynomial {
+impl DecisionFunction {
+    /// Counts and numbers of one in `features` features.
+    fn check(&self, features: usize) -> Result<()> {
+        match self {
+            Self::Polynomial {
                 degree,
                 coefficients,
             } => {
-                if !(1..=3).contains(degree) {
-                    return refuse(at, "decision.degree", degree, "1 to 3");
-                }
-                let reason = format!("all monomials of {count} features up to degree {degree}");
-                let (field, most) = ("decision.coefficients", monomials(count, *degree));
-                counted(at, field, coefficients.len(), most, &reason)?;
-                finite(at, field, coefficients)
+                check::within("degree", f64::from(*degree), 1.0..=3.0)?;
+                let reason = format!("all monomials of {features} features up to degree {degree}");
+                let most = monomials(features, *degree);
+                numbers("coefficients", coefficients, most, &reason)
             }
-            DecisionFunction::Gaussian {
+            Self::Gaussian {
                 gamma,
                 support,
                 weights,
                 offset,
             } => {
-                if !(gamma.is_finite() && *gamma > 0.0) {
-                    return refuse(at, "decision.gamma", gamma, "finite and above 0");
-                }
-                if support.len() > MOST_SUPPORT_VECTORS {
-                    let found = format!("a list of {}", support.len());
-                    let accepted = format!("at most {MOST_SUPPORT_VECTORS} support vectors");
-                    return refuse(at, "decision.support", found, accepted);
-                }
+                check::finite("gamma", *gamma)?;
+                check::above("gamma", *gamma, 0.0, f64::INFINITY)?;
+                let most = 0..=MOST_SUPPORT_VECTORS;
+                check::count("support", support.len(), most, "support vectors")?;
                 for (s, vector) in support.iter().enumerate() {
-                    let field = format!("decision.support[{s}]");
-                    counted(at, &field, vector.len(), count, "one a feature")?;
-                    finite(at, &field, vector)?;
+                    let vector = numbers("", vector, features, "one a feature");
+                    vector.map_err(|e| e.inside(("support", s)))?;
                 }
-                let reason = "one a support vector";
-                counted(at, "decision.weights", weights.len(), support.len(), reason)?;
-                finite(at, "decision.weights", weights)?;
-                finite(at, "decision.offset", &[*offset])
+                numbers("weights", weights, support.len(), "one a support vector")?;
+                check::finite("offset", *offset)
             }
         }
     }
@@ -118,38 +111,9 @@ fn quoted(text: &str) -> String {
     format!("'{}'", shortened(text))
 }
 
-/// The refusal of a field, told where its last part stands; of a calibration, where that stands.
-fn refuse<T>(
-    at: Place<'_>,
-    field: &str,
-    problem: impl ToString,
-    accepted: impl Into<String>,
-) -> Result<T> {
-    let path = field.split('[').next().unwrap_or(field);
-    let (outer, inner) = path.split_once('.').unwrap_or((path, path));
-    let needle = match outer {
-        "calibration" => outer,
-        _ => inner,
-    };
-    Err(Error::invalid(at(needle), field, problem, accepted))
-}
-
-fn counted(at: Place<'_>, field: &str, found: usize, right: usize, reason: &str) -> Result<()> {
-    if found == right {
-        return Ok(());
-    }
-    let accepted = format!("{right} numbers, {reason}");
-    refuse(at, field, format!("a list of {found}"), accepted)
-}
-
-fn finite(at: Place<'_>, field: &str, values: &[f64]) -> Result<()> {
-    match first(values, |v| !v.is_finite()) {
-        Some((i, v)) => refuse(at, &format!("{field}[{i}]"), v, "finite numbers"),
-        None => Ok(()),
-    }
-}
-
-fn first(values: &[f64], is_bad: impl Fn(&f64) -> bool) -> Option<(usize, f64)> {
-    let bad = |(_, v): &(usize, f64)| is_bad(v);
-    values.iter().copied().enumerate().find(bad)
+/// As many finite numbers as there must be, and why as many.
+fn numbers(field: &str, values: &[f64], right: usize, reason: &str) -> Result<()> {
+    let what = format_args!("numbers, {reason}");
+    check::count(field, values.len(), right..=right, what)?;
+    check::all_finite(values).map_err(|e| e.inside(field))
 }

@@ -2,6 +2,7 @@
 //!
 //! normalised features → score.
 
+use crate::math::exp;
 use serde::{Deserialize, Serialize};
 
 /// The decision function of the normalised features z. 0 or more: success is expected.
@@ -21,12 +22,14 @@ pub enum DecisionFunction {
     Gaussian {
         /// Above 0.
         gamma: f64,
-        /// Support vectors, normalised like z; at most [`MOST_SUPPORT_VECTORS`](crate::control::boundary::MOST_SUPPORT_VECTORS).
-        support: Vec<Vec<f64>>,
-        /// One a support vector.
-        weights: Vec<f64>,
         /// The score far away from all support vectors.
         offset: f64,
+        /// Support vectors, normalised like z; at most [`MOST_SUPPORT_VECTORS`](crate::control::boundary::MOST_SUPPORT_VECTORS).
+        #[serde(with = "crate::control::boundary::packed::vectors")]
+        support: Vec<Vec<f64>>,
+        /// One a support vector.
+        #[serde(with = "crate::control::boundary::packed::weights")]
+        weights: Vec<f64>,
     },
 }
 
@@ -50,7 +53,7 @@ impl DecisionFunction {
             } => {
                 let term = |(weight, s): (&f64, &Vec<f64>)| {
                     let squares = z.iter().zip(s).map(|(z, s)| (z - s) * (z - s));
-                    weight * (-gamma * squares.sum::<f64>()).exp()
+                    weight * exp(-gamma * squares.sum::<f64>())
                 };
                 weights.iter().zip(support).map(term).sum::<f64>() + offset
             }

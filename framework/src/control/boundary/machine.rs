@@ -8,11 +8,12 @@
 use std::fmt;
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::character::Model;
 use crate::control::boundary::kernel::DecisionFunction;
 use crate::input::{Result, Source};
+use crate::math::exp;
 use crate::sensing::{Feature, Sensors};
 
 /// At most this many features a boundary, so that they fit into an array on the stack.
@@ -22,15 +23,26 @@ pub const MOST_SUPPORT_VECTORS: usize = 20_000;
 /// The largest boundary file that is read: 32 MiB.
 pub const LARGEST_BOUNDARY: u64 = 32 << 20;
 
+/// The version of boundary files that is written.
+pub const VERSION: u8 = 2;
+
 /// A learned boundary, as data. Valid for one controller of one character.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Boundary {
+    /// Of the file: 1 (also if there is none) or [`VERSION`].
+    #[serde(default = "first", deserialize_with = "known")]
+    pub version: u8,
+    /// Where it comes from, in a sentence.
+    pub provenance: String,
+    /// What it was learned from, and how often it is right.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub figures: Option<BoundaryFigures>,
     /// Name of the controller whose successes it separates from its failures.
     pub controller: String,
     /// Name of the character that it was learned with.
     pub character: String,
-    /// [`Model::digest`] of that character.
+    /// [`Model::digest`](crate::character::Model::digest) of that character.
     pub character_digest: String,
     /// What it looks at, 1 to [`MOST_FEATURES`], none of them twice; x below.
     pub features: Vec<Feature>,
@@ -38,12 +50,57 @@ pub struct Boundary {
     pub mean: Vec<f64>,
     /// One a feature, in its unit, above 0.
     pub scale: Vec<f64>,
-    /// From z to the score.
-    pub decision: DecisionFunction,
     /// From the score to a probability.
     pub calibration: Calibration,
-    /// Where it comes from, in a sentence or two: seed, samples, kernel, how often it is right.
-    pub provenance: String,
+    /// From z to the score.
+    pub decision: DecisionFunction,
+}
+
+/// What a boundary was learned from, and how often it is right. All but counts and constants are
+/// parts of 1.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoundaryFigures {
+    /// It was trained on so many.
+    pub rollouts: usize,
+    /// Of the rollouts.
+    pub seed: u64,
+    /// Rollouts that succeeded.
+    pub successes: f64,
+    /// `linear`, `poly2`, `poly3` or `rbf`.
+    pub kernel: String,
+    /// Price of a violated margin.
+    pub c: f64,
+    /// Kernel coefficient.
+    pub gamma: f64,
+    /// Rollouts that carry the boundary.
+    pub support_vectors: usize,
+    /// It was tested on so many others.
+    pub tested: usize,
+    /// Of those, foretold rightly.
+    pub accuracy: f64,
+    /// Mean of the accuracies on successes and on failures.
+    pub balanced_accuracy: f64,
+    /// The same of the nearest neighbour.
+    pub balanced_accuracy_of_nearest_neighbour: f64,
+    /// The same of the hand-written precondition.
+    pub balanced_accuracy_of_hand_written: f64,
+}
+
+/// Of files that tell none.
+fn first() -> u8 {
+    1
+}
+
+fn known<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<u8, D::Error> {
+    let version = u8::deserialize(from)?;
+    if (1..=VERSION).contains(&version) {
+        return Ok(version);
+    }
+    let accepted = "1 (vectors as lists) or 2 (vectors packed); learn it anew with `aplomb train preconditions`";
+    Err(D::Error::custom(format!(
+        "version is {version}; accepted: {accepted}"
+    )))
 }
 
 /// Probability of success: 1 / (1 + exp(slope · score + offset)).
@@ -60,7 +117,7 @@ impl Calibration {
     /// Probability of success at a score, 0 to 1; 0 at what is not a number.
     #[must_use]
     pub fn probability(&self, score: f64) -> f64 {
-        let p = 1.0 / (1.0 + (self.slope * score + self.offset).exp());
+        let p = 1.0 / (1.0 + exp(self.slope * score + self.offset));
         if p.is_nan() { 0.0 } else { p }
     }
 }
@@ -80,17 +137,8 @@ impl Boundary {
     /// Unknown features, wrong counts, numbers out of bounds: with file, line and field.
     pub fn parse(source: &Source) -> Result<Self> {
         let boundary: Self = source.parse()?;
-        boundary.check(&|field| source.place(field))?;
+        boundary.check().map_err(|e| source.locate(e))?;
         Ok(boundary)
-    }
-
-    /// Looks up the joints that its features name, and checks everything.
-    ///
-    /// # Errors
-    /// As [`Self::parse`]; another character than the one it was learned with; an unknown joint.
-    pub fn resolve(&mut self, model: &Model) -> Result<()> {
-        let place = format!("Svm(controller: \"{}\")", self.controller);
-        self.resolve_at(model, &|_| place.clone())
     }
 
     /// The score of raw feature values, in the order and units of the features. 0 or more: success
@@ -126,8 +174,12 @@ impl Boundary {
 
     /// Why it has no score, where it has none.
     #[must_use]
-    pub fn absence(&self) -> String {
-        "one of its features has no value".to_owned()
+    pub fn absence(&self, now: &Sensors) -> String {
+        let absent = self.features.iter().find(|f| f.value(now).is_nan());
+        absent.map_or_else(
+            || "its score is no number".to_owned(),
+            |f| format!("{f} has no value: {}", f.absence(now)),
+        )
     }
 
     /// As [`Calibration::probability`].
@@ -155,6 +207,7 @@ impl fmt::Display for Boundary {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::character::Model;
     use crate::control::boundary::bounds::monomials;
     use std::sync::LazyLock;
 
@@ -163,6 +216,9 @@ pub(crate) mod tests {
         static DIGEST: LazyLock<String> =
             LazyLock::new(|| Model::load("humanoid").unwrap().digest());
         Boundary {
+            version: VERSION,
+            provenance: "Written by hand.".to_owned(),
+            figures: None,
             controller: "balance".to_owned(),
             character: "humanoid".to_owned(),
             character_digest: DIGEST.clone(),
@@ -174,7 +230,6 @@ pub(crate) mod tests {
                 slope: -2.0,
                 offset: 0.5,
             },
-            provenance: "Written by hand.".to_owned(),
         }
     }
 

@@ -91,7 +91,12 @@ impl Dataset {
                 Ok(value) if value.is_finite() => row.push(value),
                 _ => {
                     let found = format!("'{}'", aplomb_framework::input::shortened(text));
-                    return Err(Error::invalid(place(), name, found, "a finite number"));
+                    return Err(Error::invalid(
+                        place(),
+                        name.as_str(),
+                        found,
+                        "a finite number",
+                    ));
                 }
             }
         }
@@ -191,7 +196,12 @@ impl Dataset {
             }
             if let Some(bad) = row.iter().position(|v| !v.is_finite()) {
                 let (name, value) = (&self.features[bad], row[bad]);
-                return Err(Error::invalid(line(), name, value, "a finite number"));
+                return Err(Error::invalid(
+                    line(),
+                    name.as_str(),
+                    value,
+                    "a finite number",
+                ));
             }
         }
         Ok(())

@@ -7,12 +7,13 @@ use std::str::FromStr;
 
 use aplomb_framework::control::boundary::DecisionFunction;
 use aplomb_framework::input::{Error, Result};
+use aplomb_framework::math::exp;
 
 use super::polynomial;
 
-/// Decimals of a support vector in a boundary file: a ten-thousandth of a standard deviation decides nothing, and the
-/// file has less than half the size.
-pub const SUPPORT_DIGITS: i32 = 4;
+/// Steps of a support vector within a standard deviation: a ten-thousandth of one decides nothing, and boundary files
+/// have less than half the size.
+pub const SUPPORT_STEPS: f64 = 10_000.0;
 
 /// What stands for the scalar product of two standardised rows x, y.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,7 +78,7 @@ impl Kernel {
         let pairs = x.iter().zip(y);
         if self == Self::Rbf {
             let square: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
-            return (-gamma * square).exp();
+            return exp(-gamma * square);
         }
         let product: f64 = pairs.map(|(a, b)| a * b).sum();
         let base = gamma * product + 1.0;
@@ -143,7 +144,7 @@ impl Machine {
     }
 
     /// What the framework evaluates: the exact polynomial, or the radial sum over support vectors that are
-    /// rounded to [`SUPPORT_DIGITS`].
+    /// rounded to steps of 1 / [`SUPPORT_STEPS`].
     #[must_use]
     pub fn decision(&self) -> DecisionFunction {
         match (self.collapse(), self.kernel.degree()) {
@@ -178,10 +179,11 @@ impl Machine {
     }
 }
 
-/// A standardised row with [`SUPPORT_DIGITS`].
+/// A standardised row in steps of one over [`SUPPORT_STEPS`].
 fn rounded(row: &[f64]) -> Vec<f64> {
-    let ones = 10_f64.powi(SUPPORT_DIGITS);
-    row.iter().map(|z| (z * ones).round() / ones).collect()
+    // 0 is added so that there is no −0, which has no whole number of steps.
+    let rounded = |z: &f64| (z * SUPPORT_STEPS).round() / SUPPORT_STEPS + 0.0;
+    row.iter().map(rounded).collect()
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 //! predictions or scores, truth → [`Metrics`], ROC curve, log-loss.
 
 use crate::preconditions::report::Metrics;
+use aplomb_framework::math::ln;
 
 /// The most points of a ROC curve that is kept.
 const MOST_POINTS: usize = 300;
@@ -91,7 +92,7 @@ pub fn thinned(roc: &[[f64; 2]]) -> Vec<[f64; 2]> {
 pub fn log_loss(probability: &[f64], truth: &[bool]) -> f64 {
     let loss = |(p, success): (&f64, &bool)| {
         let given = if *success { *p } else { 1.0 - p };
-        -given.clamp(LEAST_PROBABILITY, 1.0).ln()
+        -ln(given.clamp(LEAST_PROBABILITY, 1.0))
     };
     let sum: f64 = probability.iter().zip(truth).map(loss).sum();
     sum / truth.len().max(1) as f64

@@ -1,6 +1,7 @@
 //! Features brought to mean 0 and standard deviation 1, as kernels and distances need them.
 //!
 //! training rows → [`Scaling`]; row → standardised row.
+use aplomb_framework::math::square;
 
 /// Mean and scale of every column of a training set.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -22,7 +23,7 @@ impl Scaling {
         let mut scaling = Self::default();
         for column in 0..columns {
             let mean = average(&|row| row[column]);
-            let deviation = average(&|row| (row[column] - mean).powi(2)).sqrt();
+            let deviation = average(&|row| square(row[column] - mean)).sqrt();
             // Summation leaves a constant column a deviation of some roundings.
             let constant = deviation <= 1e-12 * mean.abs() || !deviation.is_normal();
             scaling.mean.push(mean);

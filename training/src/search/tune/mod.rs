@@ -4,6 +4,7 @@
 
 mod balance;
 mod fall;
+mod layout;
 mod numbers;
 mod pose;
 mod stance;

@@ -1,18 +1,19 @@
-//! Optimises the numbers of a controller's file.
+//! The numbers of a controller's file as a point, and the file of a point.
 //!
-//! controller file → dimensions → CMA-ES over rollouts → controller file, with seed and cost.
+//! controller file → dimensions → point of the unit cube → controller file.
 
 use std::fmt::Write;
-use std::ops::ControlFlow;
 
 use aplomb_controllers::target::NamedAngles;
 use aplomb_framework::character::Model;
 use aplomb_framework::control::{Contract, ControllerFile, Spec};
 use aplomb_framework::input::{Result, Source, options};
+use aplomb_framework::math::log10;
 use serde::Serialize;
 
-use crate::search::cma_es::{Best, Search, minimise};
+use crate::exercise::Task;
 use crate::search::dimension::Dimension;
+use crate::search::tune::layout::folded;
 
 /// A kind of controller whose spec can be optimised.
 pub trait Tunable: Spec + Clone + Serialize + Sync {
@@ -50,7 +51,7 @@ pub fn at<T: Tunable>(base: &T, model: &Model, point: &[f64]) -> T {
     for (d, u) in around(base, model).iter().zip(point) {
         // Five digits are more than the search can tell apart, and read well.
         let value = d.value(*u);
-        let digits = (4 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 9) as usize;
+        let digits = (4 - log10(value.abs().max(1e-9)).floor() as i32).clamp(0, 9) as usize;
         *spec.slot(&d.name) = format!("{value:.digits$}").parse().unwrap_or(value);
     }
     spec.settle();
@@ -81,28 +82,44 @@ pub fn spec_of<T: Spec>(source: &Source) -> Result<(Contract, T)> {
 struct WholeFile<'a, T> {
     kind: &'a str,
     contract: &'a Contract,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    exercise: Option<&'a Task>,
     spec: &'a T,
 }
 
-fn whole<'a, T: Spec + Serialize>(contract: &'a Contract, spec: &'a T) -> WholeFile<'a, T> {
+fn whole<'a, T: Spec + Serialize>(
+    contract: &'a Contract,
+    exercise: Option<&'a Task>,
+    spec: &'a T,
+) -> WholeFile<'a, T> {
     WholeFile {
         kind: T::KIND,
         contract,
+        exercise,
         spec,
     }
 }
 
 /// A controller file in one line.
 #[must_use]
-pub fn line_of<T: Spec + Serialize>(contract: &Contract, spec: &T) -> String {
-    let file = whole(contract, spec);
+pub fn line_of<T: Spec + Serialize>(
+    contract: &Contract,
+    exercise: Option<&Task>,
+    spec: &T,
+) -> String {
+    let file = whole(contract, exercise, spec);
     options().to_string(&file).unwrap_or_default()
 }
 
 /// A controller file in text, with comments before it.
 #[must_use]
-pub fn text_of<T: Spec + Serialize>(contract: &Contract, spec: &T, header: &str) -> String {
-    let file = whole(contract, spec);
+pub fn text_of<T: Spec + Serialize>(
+    contract: &Contract,
+    exercise: Option<&Task>,
+    spec: &T,
+    header: &str,
+) -> String {
+    let file = whole(contract, exercise, spec);
     let pretty = ron::ser::PrettyConfig::new()
         .struct_names(false)
         .depth_limit(3);
@@ -113,53 +130,13 @@ pub fn text_of<T: Spec + Serialize>(contract: &Contract, spec: &T, header: &str)
     for line in header.lines() {
         let _ = writeln!(text, "// {line}");
     }
-    text + &body + "\n"
-}
-
-/// A repertoire of this controller and one that lets go.
-#[must_use]
-pub fn repertoire_with<T: Tunable>(contract: &Contract, spec: &T) -> String {
-    format!(
-        "(name: \"tuned\", fallback: \"rest\", controllers: [Here({}), \
-         File(\"skills/rest.ron\")])",
-        text_of(contract, spec, "")
-    )
-}
-
-/// Searches from a file's own numbers for the least `cost` of a repertoire in text. `watch` sees the
-/// evaluations so far, the least cost and the file's text for it, after the first evaluation and then
-/// each generation, so that a search that is stopped has lost nothing. Returns the least cost.
-///
-/// # Errors
-/// An invalid file.
-pub fn search<T: Tunable>(
-    source: &Source,
-    cost: impl Fn(&str) -> Result<f64> + Sync,
-    search: Search,
-    mut watch: impl FnMut(usize, f64, &dyn Fn(&str) -> String),
-) -> Result<f64> {
-    let (contract, base) = spec_of::<T>(source)?;
-    let model = Model::load("humanoid")?;
-    let start = point_of(&base, &model);
-    // A first run, so that an invalid file is an error and not a cost.
-    cost(&repertoire_with(&contract, &base))?;
-    let cost = |point: &[f64]| {
-        let text = repertoire_with(&contract, &at(&base, &model, point));
-        cost(&text).unwrap_or(f64::INFINITY)
-    };
-    let best = minimise(&start, search, cost, |evaluations, best: &Best| {
-        let text = |header: &str| text_of(&contract, &at(&base, &model, &best.point), header);
-        watch(evaluations, best.cost, &text);
-        ControlFlow::Continue(())
-    });
-    Ok(best.cost)
+    text + &folded(&body)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exercise::standing;
-    use crate::situations::pushes::Site;
+    use crate::exercise::skill::tests::shipped as skill;
     use aplomb_controllers::kinds::balance::BalanceSpec;
     use aplomb_controllers::kinds::fall::FallSpec;
 
@@ -172,7 +149,9 @@ mod tests {
         let (contract, spec) = spec_of::<BalanceSpec>(&shipped("skills/balance.ron")).unwrap();
         let model = Model::load("humanoid").unwrap();
         let same = at(&spec, &model, &point_of(&spec, &model));
-        let text = text_of(&contract, &same, "Why.\nHow.");
+        let exercise = Task::of(&skill("balance")).unwrap();
+        let text = text_of(&contract, Some(&exercise), &same, "Why.\nHow.");
+        assert!(text.contains("exercise: Stand("), "{text}");
         assert!(text.starts_with("// Why.\n// How.\n("), "{text}");
         let (again, back) = spec_of::<BalanceSpec>(&Source::new("x", text)).unwrap();
         assert_eq!((again, &back), (contract, &same));
@@ -188,20 +167,5 @@ mod tests {
             refusal.to_string().contains("unknown kind 'rest'"),
             "{refusal}"
         );
-    }
-
-    #[test]
-    fn light_pushes_are_stood_and_heavy_ones_are_not() {
-        let registry = aplomb_controllers::registry();
-        let (contract, spec) = spec_of::<BalanceSpec>(&shipped("skills/balance.ron")).unwrap();
-        let text = repertoire_with(&contract, &spec);
-        let push = |impulse| standing::Push {
-            site: Site::Trunk,
-            impulse,
-            at: 1.0,
-            friction: 1.0,
-        };
-        assert!(standing::take(&text, &registry, push(15.0)).unwrap().stood);
-        assert!(!standing::take(&text, &registry, push(120.0)).unwrap().stood);
     }
 }

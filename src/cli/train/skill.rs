@@ -1,4 +1,4 @@
-//! `aplomb train poses`: CMA-ES over the numbers of a controller.
+//! `aplomb train skill`: CMA-ES over the numbers of a controller.
 //!
 //! arguments → skill → search → controller file and journal. The number of threads changes nothing.
 
@@ -17,6 +17,7 @@ use indicatif::ProgressBar;
 use serde::Serialize;
 
 use super::skills;
+use crate::cli::arguments::{Json, Resume, Seed};
 use crate::cli::output::{check_writable, message, write_json};
 use crate::cli::scene::CastArgs;
 use crate::cli::values::{number, whole};
@@ -24,13 +25,13 @@ use crate::cli::{Verdict, progress, work};
 
 /// Search for better numbers of a controller: angles, durations, gains
 ///
-/// CMA-ES over many rollouts in random worlds (friction 0.6 to 1.2, torque 0.85 to 1.15, mass 0.95
-/// to 1.05). A controller of kind pose or step is taken from where its repertoire hands over to it,
-/// half of the times in a heap on the floor, half in a fall after a push (where that is too rare, it
-/// also begins as its rollouts for train preconditions do), and has to come to its goal without any
-/// failure; a step that takes over from standing is pushed, by 40 to 90 N·s either way. A
-/// controller of kind fall is pushed by 60 to 300 N·s on trunk, root and head in turn, and has to keep
-/// head and trunk from hitting the ground first, and hard.
+/// CMA-ES over many rollouts. The controller's file declares in `exercise` where they begin and what
+/// the controller has to do, its numbers what is searched. In random worlds (friction 0.6 to 1.2,
+/// torque 0.85 to 1.15, mass 0.95 to 1.05): `Rise` takes over where the repertoire hands over to it, in
+/// heaps on the floor and in falls after a push (where that is too rare, it also begins as its
+/// rollouts for train preconditions do), and has to come to its goal without any failure; `Step` is
+/// pushed and has to stand again; `Fall` is pushed and has to keep head and trunk from hitting the
+/// ground first, and hard. `Stand` takes pushes at its limit alone, and has to keep its feet.
 ///
 /// The best controller so far is always in the output; beside it is a journal with which --resume
 /// goes on, also after the program was killed, to what it would have found. Ctrl-C ends the search
@@ -38,12 +39,13 @@ use crate::cli::{Verdict, progress, work};
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  aplomb train poses rise_supine --evaluations 2000 --starts 40
-  aplomb train poses rise_supine --evaluations 4000 --starts 40 --resume
-  aplomb train poses fall --starts 42
-  aplomb train poses tuck --repertoire mine.ron --out better.ron --json")]
-pub(in crate::cli) struct PosesArgs {
-    /// Name of a controller of the repertoire, of kind pose, step or fall
+  aplomb train skill rise_supine --evaluations 2000 --starts 40
+  aplomb train skill rise_supine --evaluations 4000 --starts 40 --resume
+  aplomb train skill fall --starts 42
+  aplomb train skill balance --starts 24
+  aplomb train skill tuck --repertoire mine.ron --out better.ron --json")]
+pub(in crate::cli) struct SkillArgs {
+    /// Name of a controller of the repertoire, of kind pose, step, fall, balance or stance
     controller: String,
     #[command(flatten)]
     cast: CastArgs,
@@ -51,14 +53,12 @@ pub(in crate::cli) struct PosesArgs {
     #[arg(long, value_name = "N", default_value = "1000",
           value_parser = whole(1, 10_000_000), allow_negative_numbers = true)]
     evaluations: u64,
-    /// Number of starts
+    /// Number of starts; of pushes for `Stand`
     #[arg(long, value_name = "N", default_value = "32",
           value_parser = whole(1, 10_000), allow_negative_numbers = true)]
     starts: u64,
-    /// Fixes everything random
-    #[arg(long, value_name = "N", default_value = "0",
-          value_parser = whole(0, u64::MAX), allow_negative_numbers = true)]
-    seed: u64,
+    #[command(flatten)]
+    seed: Seed,
     /// Width of the search at its beginning, relative to the ranges of the numbers
     #[arg(long, value_name = "S", default_value = "0.1",
           value_parser = number(0.001, 1.0, "of the ranges"), allow_negative_numbers = true)]
@@ -68,12 +68,10 @@ pub(in crate::cli) struct PosesArgs {
     /// The controller file that is written [default: CONTROLLER.ron]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Goes on with the search whose journal is beside the output
-    #[arg(long)]
-    resume: bool,
-    /// Prints one JSON value instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    resume: Resume,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// Names are a contract with other people's scripts.
@@ -93,7 +91,7 @@ struct Report<'a> {
     out: String,
 }
 
-impl PosesArgs {
+impl SkillArgs {
     pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
         let skills = skills(&self.cast)?;
         let skill = Skill::find(&skills, &self.controller)?;
@@ -116,7 +114,7 @@ impl PosesArgs {
         let report = Report {
             controller: skill.name(),
             kind: skill.kind(),
-            seed: self.seed,
+            seed: self.seed.value,
             evaluations: found.evaluations,
             starts: found.starts,
             reached: found.best.reached,
@@ -127,7 +125,7 @@ impl PosesArgs {
             interrupted,
             out: file.display().to_string(),
         };
-        if self.json {
+        if self.json.wanted {
             write_json(out, &report)?;
         } else {
             print(out, &report)?;
@@ -139,10 +137,10 @@ impl PosesArgs {
         let plan = Plan {
             evaluations: self.evaluations as usize,
             starts: self.starts as usize,
-            seed: self.seed,
+            seed: self.seed.value,
             sigma: self.sigma,
             out: file,
-            resume: self.resume,
+            resume: self.resume.wanted,
         };
         let mut bars = Bars::new(self);
         let found = improve::improve(skill, plan, |stage| {
@@ -150,7 +148,7 @@ impl PosesArgs {
             work::going_on(stop)
         });
         bars.bar.finish_and_clear();
-        let found = if self.resume {
+        let found = if self.resume.wanted {
             found.context("--resume")?
         } else {
             found?
@@ -170,7 +168,7 @@ struct Bars {
 }
 
 impl Bars {
-    fn new(args: &PosesArgs) -> Self {
+    fn new(args: &SkillArgs) -> Self {
         Self {
             bar: progress::bar(args.starts, "starts"),
             evaluations: args.evaluations,

@@ -1,38 +1,18 @@
-//! What contracts ask for, and scores on any number of threads.
+//! Starts and scores on any number of threads.
 
 use super::*;
 use crate::exercise::skill::tests::{TUCK, shipped, skills};
 use aplomb_framework::control::repertoire;
-use aplomb_framework::sensing::Posture;
 
-fn task(contract: &str) -> std::result::Result<Task, String> {
-    let mut contract: Contract = ron::from_str(contract).unwrap();
-    let model = Model::load("humanoid").unwrap();
-    contract.resolve(&model).unwrap();
-    Task::by_contract(&contract, &model).map_err(|e| e.to_string())
-}
-
-fn with(pre: &str, post: &str, weight: u32) -> std::result::Result<Task, String> {
-    task(&format!(
-        r#"(name: "x", weight: {weight}, precondition: {pre}, postcondition: {post})"#
-    ))
-}
-
-#[test]
-fn the_task_follows_from_the_contract() {
-    let high = r#"All([Posture([standing]), Within(feature: "com_height", min: 0.75)])"#;
-    let low = r#"Any([Posture([crouching]), Within(feature: "com_height", min: 0.75)])"#;
-    let stand = "All([Posture([crouching, standing])])";
-    assert_eq!(with(high, stand, 7), Ok(Task::Push));
-    assert_eq!(with(low, stand, 7), Ok(Task::Rise(Goal::Stand)));
-    assert_eq!(with(low, stand, 0), Ok(Task::Rise(Goal::Stand)));
-    let prone = Task::Rise(Goal::Reach(Posture::Prone));
-    assert_eq!(with(high, "Posture([prone, sitting])", 0), Ok(prone));
-    let refusals = [(high, stand, 0), (low, "Never", 1), (low, "Always", 1)];
-    for (pre, post, weight) in refusals {
-        let told = with(pre, post, weight).unwrap_err();
-        assert!(told.contains("accepted: "), "{told}");
+fn runs(exercise: &Exercise) -> &[Simulation] {
+    match &exercise.begun {
+        Begun::Runs(starts) => &starts.runs,
+        Begun::Pushes(_) => &[],
     }
+}
+
+fn digests(exercise: &Exercise) -> Vec<String> {
+    runs(exercise).iter().map(Simulation::digest).collect()
 }
 
 /// Digests of the starts, and the score, on so many threads.
@@ -40,13 +20,7 @@ fn exercised(threads: usize, skill: &Skill, drill: Drill) -> (Vec<String>, Score
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     pool.unwrap().install(|| {
         let exercise = Exercise::new(skill, drill, |_| ControlFlow::Continue(())).unwrap();
-        let digests = exercise
-            .starts
-            .runs
-            .iter()
-            .map(Simulation::digest)
-            .collect();
-        (digests, exercise.judge(&skill.supervisor))
+        (digests(&exercise), exercise.judge(&skill.supervisor))
     })
 }
 
@@ -75,17 +49,14 @@ fn skills_that_are_exercised_together_start_as_each_does_alone() {
     let drill = Drill::training(3, 5);
     let together = Exercise::all(&[never, tuck], drill, |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(together[0].starts(), 0);
-    let starts = together[1].starts.runs.iter();
-    let digests: Vec<String> = starts.map(Simulation::digest).collect();
-    assert_eq!(digests, exercised(1, tuck, drill).0);
+    assert_eq!(digests(&together[1]), exercised(1, tuck, drill).0);
 }
 
 #[test]
-fn a_fall_is_told_by_its_kind_and_scored_by_how_it_lands() {
+fn a_fall_is_scored_by_how_it_lands() {
     let model = Model::load("humanoid").unwrap();
     let registry = aplomb_controllers::registry();
     let fall = &shipped("fall");
-    assert_eq!(Task::of(fall).unwrap(), Task::Fall);
     let drill = Drill::training(6, 2);
     let (starts, score) = exercised(1, fall, drill);
     assert_eq!(starts.len(), 6);
@@ -107,9 +78,23 @@ fn who_is_seldom_asked_also_starts_as_its_rollouts_do() {
     .unwrap();
     assert_eq!(exercise.starts(), 8);
     assert!(exercise.own_starts() > 0);
-    for start in &exercise.starts.runs {
+    for start in runs(&exercise) {
         let mut run = start.clone();
         run.step();
         assert!(skill.contract.precondition.holds(run.sensors(0)));
     }
+}
+
+#[test]
+fn standing_is_scored_by_the_pushes_that_it_withstands() {
+    let balance = &shipped("balance");
+    let drill = Drill::training(4, 0);
+    let exercise = Exercise::new(balance, drill, |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!((exercise.starts(), exercise.own_starts()), (4, 0));
+    let score = exercise.judge(&balance.supervisor);
+    assert!(score.reached >= 1 && score.cost < 1.0, "{score:?}");
+    // Whoever lacks the controller withstands nothing.
+    let (_folder, others) = skills(TUCK);
+    let none = exercise.judge(&others[0].supervisor);
+    assert_eq!(none, Score::WORST);
 }
