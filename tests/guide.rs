@@ -83,6 +83,7 @@ fn excerpts_are_lines_in_their_order_with_gaps() {
     assert_eq!(missing("two", output), Some("two"), "half a line");
     assert_eq!(missing("three\none", output), Some("one"), "out of order");
     assert_eq!(missing("two … s", output), Some("two … s"));
+    assert_eq!(missing("a (…)", "a (b (c))"), None, "the end is the line's");
 }
 
 /// A fenced block: the words after its fence, its text, the line that it begins in.
@@ -219,7 +220,7 @@ fn example(name: &str) -> PathBuf {
     if !built.exists() {
         let cargo = Command::new(env!("CARGO"))
             .current_dir(repository())
-            .args(["build", "--quiet", "--example", name])
+            .args(["build", "--quiet", "--workspace", "--example", name])
             .status();
         assert!(cargo.unwrap().success(), "{name} does not compile");
     }
@@ -237,17 +238,19 @@ fn missing<'a>(excerpt: &'a str, output: &str) -> Option<&'a str> {
 
 /// Whether a line is as the excerpt's, in which `…` stands for anything.
 fn matches(line: &str, candidate: &str) -> bool {
-    let mut pieces = line.split('…');
-    let first = pieces.next().unwrap_or("");
-    let Some(mut rest) = candidate.strip_prefix(first) else {
+    let Some((first, others)) = line.split_once('…') else {
+        return line == candidate;
+    };
+    let (between, last) = others.rsplit_once('…').unwrap_or(("", others));
+    let Some(mut rest) = candidate
+        .strip_prefix(first)
+        .and_then(|r| r.strip_suffix(last))
+    else {
         return false;
     };
-    let mut open = false;
-    for piece in pieces {
-        let Some(at) = rest.find(piece) else {
-            return false;
-        };
-        (rest, open) = (&rest[at + piece.len()..], piece.is_empty());
-    }
-    open || rest.is_empty()
+    between.split('…').all(|piece| {
+        let at = rest.find(piece);
+        rest = at.map_or("", |at| &rest[at + piece.len()..]);
+        at.is_some()
+    })
 }

@@ -65,6 +65,18 @@ fn drawable(trajectory: &Trajectory, character: usize) -> Result<()> {
 ///
 /// # Errors
 /// An empty trajectory or an unknown character.
+///
+/// ```
+/// # use aplomb::framework::prelude::*;
+/// # let scenario = Scenario::standing("humanoid", 0.1);
+/// # let mut simulation = Simulation::new(&scenario, &aplomb::controllers::registry())?;
+/// simulation.record("standing", 0);
+/// simulation.run(0.1);
+/// let trajectory = simulation.into_recording().expect("it was recorded");
+/// let svg = aplomb::render::filmstrip(&trajectory, &Default::default())?;
+/// assert!(svg.contains("balance")); // is active
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn filmstrip(trajectory: &Trajectory, options: &FilmOptions) -> Result<String> {
     let (strip, size) = film::strip(trajectory, options)?;
     Ok(style::document(size, strip))
@@ -76,6 +88,19 @@ pub fn filmstrip(trajectory: &Trajectory, options: &FilmOptions) -> Result<Strin
 ///
 /// # Errors
 /// An empty trajectory or an unknown character.
+///
+/// ```
+/// # use aplomb::framework::prelude::*;
+/// # let scenario = Scenario::standing("humanoid", 0.1);
+/// # let mut simulation = Simulation::new(&scenario, &aplomb::controllers::registry())?;
+/// simulation.record("standing", 0);
+/// simulation.run(0.1);
+/// let trajectory = simulation.into_recording().expect("it was recorded");
+/// let svg = aplomb::render::plot(&trajectory, 0)?;
+/// assert!(svg.contains("balance")); // is active
+/// assert!(aplomb::render::plot(&trajectory, 1).is_err()); // there is one character
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn plot(trajectory: &Trajectory, character: usize) -> Result<String> {
     let (plot, size) = plot::plot(trajectory, character, film::WIDTH)?;
     Ok(style::document(size, plot))
@@ -118,6 +143,19 @@ fn picture(trajectory: &Trajectory, with_plot: bool) -> Result<String> {
 /// # Errors
 /// Another extension, an empty trajectory, a file that cannot be written; for `.mp4` also a
 /// missing `ffmpeg`.
+///
+/// ```
+/// # use aplomb::framework::prelude::*;
+/// # let scenario = Scenario::standing("humanoid", 0.1);
+/// # let mut simulation = Simulation::new(&scenario, &aplomb::controllers::registry())?;
+/// simulation.record("standing", 0);
+/// simulation.run(0.1);
+/// let trajectory = simulation.into_recording().expect("it was recorded");
+/// let folder = tempfile::tempdir()?;
+/// aplomb::render::write(&trajectory, &folder.path().join("standing.svg"), true)?;
+/// assert!(aplomb::render::write(&trajectory, &folder.path().join("standing.bmp"), true).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write(trajectory: &Trajectory, path: &Path, plot: bool) -> Result<()> {
     let extension = path
         .extension()

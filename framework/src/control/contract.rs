@@ -22,6 +22,19 @@ pub enum Progress {
 }
 
 /// A controller's contract, as data.
+///
+/// ```
+/// # use aplomb_framework::prelude::*;
+/// let text = r#"(name: "nod", weight: 3, precondition: Posture([standing]))"#;
+/// let mut contract: Contract = ron::from_str(text)?;
+/// let model = Model::load("humanoid")?;
+/// contract.resolve(&model)?; // looks up joints, checks numbers
+/// let mut now = Sensors::new(&model, 9.81);
+/// assert_eq!(contract.suitability(&now), 0.0); // in the air
+/// now.posture = Posture::Standing;
+/// assert_eq!(contract.suitability(&now), 3.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contract {

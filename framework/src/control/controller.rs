@@ -14,6 +14,26 @@ use crate::sensing::Sensors;
 ///
 /// Only [`contract`](Self::contract), [`enter`](Self::enter), [`act`](Self::act) and
 /// [`clone_box`](Self::clone_box) have to be written.
+///
+/// ```
+/// use aplomb_framework::prelude::*;
+///
+/// #[derive(Debug, Clone)]
+/// struct Limp(Contract);
+///
+/// impl Controller for Limp {
+///     fn contract(&self) -> &Contract { &self.0 }
+///     fn enter(&mut self, _: &Sensors) {} // nothing to forget
+///     fn act(&mut self, _: &Sensors, torques: &mut [f64]) { torques.fill(0.0); }
+///     fn clone_box(&self) -> Box<dyn Controller> { Box::new(self.clone()) }
+/// }
+/// # let contract = ron::from_str(r#"(name: "limp", weight: 1, precondition: Always)"#)?;
+/// # let model = Model::load("humanoid")?;
+/// # let mut torques = vec![1.0; model.joint_count()];
+/// # Limp(contract).act(&Sensors::new(&model, 9.81), &mut torques);
+/// # assert!(torques.iter().all(|t| *t == 0.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Controller: Debug + Send + Sync {
     /// What it promises.
     fn contract(&self) -> &Contract;

@@ -14,6 +14,33 @@ use crate::control::controller::Controller;
 use crate::input::{Error, Result, Source, options};
 
 /// The parameters of one kind of controller, as in the `spec` field of a file.
+///
+/// ```
+/// # use aplomb_framework::{control::repertoire, prelude::*};
+/// # #[derive(Debug, Clone)]
+/// # struct Limp(Contract);
+/// # impl Controller for Limp {
+/// #     fn contract(&self) -> &Contract { &self.0 }
+/// #     fn enter(&mut self, _: &Sensors) {}
+/// #     fn act(&mut self, _: &Sensors, torques: &mut [f64]) { torques.fill(0.0); }
+/// #     fn clone_box(&self) -> Box<dyn Controller> { Box::new(self.clone()) }
+/// # }
+/// #[derive(serde::Deserialize)]
+/// struct LimpSpec {} // no parameters
+///
+/// impl Spec for LimpSpec {
+///     const KIND: &'static str = "limp";
+///     fn build(self, contract: Contract, _: &Arc<Model>) -> Result<Box<dyn Controller>> {
+///         Ok(Box::new(Limp(contract))) // a controller as in the example of `Controller`
+///     }
+/// }
+/// # let text = r#"(name: "faint", fallback: "limp", controllers: [
+/// #     Here((kind: "limp", contract: (name: "limp", weight: 1, precondition: Always)))])"#;
+/// let registry = Registry::new().with::<LimpSpec>().with_file("repertoires/faint.ron", text);
+/// # let pool = repertoire::load("faint", &registry, &Model::load("humanoid")?)?;
+/// # assert_eq!(pool.controllers().count(), 1);
+/// # Ok::<(), aplomb_framework::Error>(())
+/// ```
 pub trait Spec: DeserializeOwned {
     /// The kind's name, as in the `kind` field: `balance`, `pose`.
     const KIND: &'static str;
@@ -65,6 +92,17 @@ fn empty() -> Box<RawValue> {
 type Build = fn(&Source, &RawValue, Contract, &Arc<Model>) -> Result<Box<dyn Controller>>;
 
 /// The kinds of controllers and the shipped files that can be referred to by name.
+///
+/// ```
+/// # use aplomb_framework::{control::repertoire, prelude::*};
+/// let text = r#"(name: "faint", fallback: "limp", controllers: [
+///     Here((kind: "limp", contract: (name: "limp", weight: 1, precondition: Always)))])"#;
+/// let registry = Registry::new().with_file("repertoires/faint.ron", text);
+/// // The file is known, its kind of controller is not: see `with`.
+/// let refusal = repertoire::load("faint", &registry, &Model::load("humanoid")?).unwrap_err();
+/// assert!(refusal.to_string().contains("unknown kind"), "{refusal}");
+/// # Ok::<(), aplomb_framework::Error>(())
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct Registry {
     kinds: BTreeMap<&'static str, Build>,

@@ -37,6 +37,30 @@ struct Active {
 }
 
 /// A pool of controllers under one contract.
+///
+/// ```
+/// # use aplomb_framework::prelude::*;
+/// # use aplomb_framework::Supervisor;
+/// # #[derive(Debug, Clone)]
+/// # struct Limp(Contract);
+/// # impl Controller for Limp {
+/// #     fn contract(&self) -> &Contract { &self.0 }
+/// #     fn enter(&mut self, _: &Sensors) {}
+/// #     fn act(&mut self, _: &Sensors, torques: &mut [f64]) { torques.fill(0.0); }
+/// #     fn clone_box(&self) -> Box<dyn Controller> { Box::new(self.clone()) }
+/// # }
+/// # let contract = ron::from_str(r#"(name: "limp", weight: 1, precondition: Always)"#)?;
+/// # let limp: Box<dyn Controller> = Box::new(Limp(contract)); // no torques
+/// // `limp` is a controller that accepts every state.
+/// let mut supervisor = Supervisor::new("faint", vec![limp], "limp")?;
+/// let model = Model::load("humanoid")?;
+/// let (now, mut torques) = (Sensors::new(&model, 9.81), vec![0.0; model.joint_count()]);
+/// assert_eq!(supervisor.active(), None);
+/// supervisor.act(&now, &mut torques);
+/// assert_eq!(supervisor.active(), Some("limp"));
+/// assert!(supervisor.command("dance").is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Supervisor {
     contract: Contract,

@@ -34,6 +34,31 @@ pub fn tick<'a>(
 }
 
 /// A run in progress.
+///
+/// ```
+/// # use aplomb_framework::prelude::*;
+/// # use aplomb_framework::Supervisor;
+/// # #[derive(Debug, Clone)]
+/// # struct Limp(Contract);
+/// # impl Controller for Limp {
+/// #     fn contract(&self) -> &Contract { &self.0 }
+/// #     fn enter(&mut self, _: &Sensors) {}
+/// #     fn act(&mut self, _: &Sensors, torques: &mut [f64]) { torques.fill(0.0); }
+/// #     fn clone_box(&self) -> Box<dyn Controller> { Box::new(self.clone()) }
+/// # }
+/// # let contract = ron::from_str(r#"(name: "limp", weight: 1, precondition: Always)"#)?;
+/// # let limp: Box<dyn Controller> = Box::new(Limp(contract)); // no torques
+/// // `limp` is a controller; with a registry of controllers `Simulation::new` reads repertoires.
+/// let (model, scenario) = (Model::load("humanoid")?, Scenario::standing("humanoid", 1.0));
+/// let supervisor = Supervisor::new("faint", vec![limp], "limp")?;
+/// let mut simulation = Simulation::with_cast(&scenario, vec![(model, supervisor)])?;
+/// simulation.run(0.3);
+/// simulation.push(0, "torso", 10.0)?; // N·s
+/// simulation.run(0.7);
+/// assert!(!simulation.outcome(0).standing);
+/// assert_eq!(simulation.events()[0].time, 0.0); // `limp` becomes active
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Simulation {
     world: World,

@@ -42,6 +42,31 @@ pub struct Header {
 const EXTRA: usize = 11;
 
 /// A recorded run. Rows hold single-precision numbers, the engine's precision.
+///
+/// ```
+/// # use aplomb_framework::prelude::*;
+/// # use aplomb_framework::Supervisor;
+/// # #[derive(Debug, Clone)]
+/// # struct Limp(Contract);
+/// # impl Controller for Limp {
+/// #     fn contract(&self) -> &Contract { &self.0 }
+/// #     fn enter(&mut self, _: &Sensors) {}
+/// #     fn act(&mut self, _: &Sensors, torques: &mut [f64]) { torques.fill(0.0); }
+/// #     fn clone_box(&self) -> Box<dyn Controller> { Box::new(self.clone()) }
+/// # }
+/// # let contract = ron::from_str(r#"(name: "limp", weight: 1, precondition: Always)"#)?;
+/// # let limp: Box<dyn Controller> = Box::new(Limp(contract)); // no torques
+/// # let (model, scenario) = (Model::load("humanoid")?, Scenario::standing("humanoid", 1.0));
+/// # let supervisor = Supervisor::new("faint", vec![limp], "limp")?;
+/// # let mut simulation = Simulation::with_cast(&scenario, vec![(model, supervisor)])?;
+/// simulation.record("faint", 0);
+/// simulation.run(0.5);
+/// let trajectory = simulation.into_recording().expect("it was recorded");
+/// let [first, last] = [0, trajectory.len() - 1].map(|step| trajectory.moment(step, 0));
+/// assert!(last.com[1] < first.com[1]); // it sinks
+/// assert_eq!(trajectory.controller(0, 0), "limp");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     /// The run.

@@ -98,6 +98,18 @@ impl Participant {
 }
 
 /// A validated scenario.
+///
+/// ```
+/// # use aplomb_framework::{input::Source, scenario::Scenario};
+/// let text = r#"(name: "hit", duration: 2, characters: [(character: "humanoid")],
+///     parameters: {"impulse": (default: -20, min: -50, max: 50)},
+///     events: [Push(at: 1, link: "torso", impulse: "impulse")], expect: [Standing()])"#;
+/// let mut scenario = Scenario::parse(&Source::new("hit", text))?;
+/// scenario.set("impulse", 30.0)?;
+/// assert!(scenario.set("impulse", 300.0).is_err());
+/// assert_eq!(scenario.parameters["impulse"].value, 30.0); // as it was
+/// # Ok::<(), aplomb_framework::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {

@@ -15,6 +15,18 @@ use crate::sensing::vocabulary::{NONE, SCALARS};
 
 /// A named scalar of [`Sensors`]. In files: its name as a string, `com_height`,
 /// `angle.knee_r` or `prop_ahead.ball`.
+///
+/// ```
+/// # use aplomb_framework::{Model, Sensors, sensing::Feature};
+/// let model = Model::load("humanoid")?;
+/// let mut knee: Feature = "angle.knee_r".parse()?;
+/// knee.resolve(&model)?; // looks up the joint
+/// let now = Sensors::new(&model, 9.81);
+/// assert_eq!((knee.value(&now), knee.unit()), (0.0, "rad"));
+/// let ball: Feature = "prop_ahead.ball".parse()?;
+/// assert!(ball.value(&now).is_nan()); // there is none
+/// # Ok::<(), aplomb_framework::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Feature(Kind);
 

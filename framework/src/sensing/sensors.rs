@@ -87,6 +87,16 @@ impl FootContact {
 }
 
 /// The character and its contacts at one instant. SI units, world frame (x forward, y up).
+///
+/// ```
+/// # use aplomb_framework::prelude::*;
+/// let model = Model::load("humanoid")?;
+/// let now = Sensors::new(&model, 9.81); // a controller is given them
+/// assert_eq!((now.posture, now.cop), (Posture::Airborne, None));
+/// assert_eq!(now.contacts.len(), model.links.len());
+/// assert!(now.trunk_pitch().abs() < 1e-9 && !now.stands());
+/// # Ok::<(), aplomb_framework::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensors {
     /// The character.

@@ -23,6 +23,22 @@ const SUPPORTING: f32 = 0.5;
 const SKIN_FRICTION: f32 = 2.0;
 
 /// A character's bodies, colliders and hinges in rapier sets.
+///
+/// The whole loop, with a world that is stepped, is in `examples/embed.rs`.
+///
+/// ```
+/// # use aplomb_framework::rapier2d::prelude::{ColliderSet, ImpulseJointSet, RigidBodySet};
+/// # use aplomb_framework::{Model, character::State, world::Body};
+/// let (mut bodies, mut colliders) = (RigidBodySet::new(), ColliderSet::new());
+/// let mut joints = ImpulseJointSet::new();
+/// let model = Model::load("humanoid")?;
+/// let start = State::standing(&model);
+/// let body = Body::spawn(&model, &start, 0, &mut bodies, &mut colliders, &mut joints);
+/// assert_eq!((bodies.len(), joints.len()), (model.links.len(), model.joint_count()));
+/// // Each step: the engine's step, body.sense, a supervisor's act, and
+/// body.actuate(&mut bodies, &vec![0.0; model.joint_count()]);
+/// # Ok::<(), aplomb_framework::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Body {
     model: Arc<Model>,

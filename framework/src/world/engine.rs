@@ -32,6 +32,21 @@ pub(super) struct ConstantForce {
 }
 
 /// Level ground at y = 0, characters and props, under rapier2d.
+///
+/// ```
+/// # use aplomb_framework::{Model, character::State, world::{Settings, World}};
+/// let model = Model::load("humanoid")?;
+/// let mut world = World::new(Settings::default());
+/// let it = world.spawn(&model, &State::standing(&model));
+/// let torques = vec![0.0; model.joint_count()]; // N·m
+/// for _ in 0..500 {
+///     world.sense(it); // a controller would now act
+///     world.actuate(it, &torques);
+///     world.step();
+/// }
+/// assert!(world.sense(it).com[1] < model.standing_com[1]); // without torques it sinks
+/// # Ok::<(), aplomb_framework::Error>(())
+/// ```
 pub struct World {
     pub(super) settings: Settings,
     pub(super) steps: u64,

@@ -18,6 +18,21 @@ const SPREAD: f64 = 3.0;
 const LARGEST: f64 = 1e6;
 
 /// The mean of a family and its principal axes.
+///
+/// ```
+/// # use aplomb_controllers::kinds::cmrt::Cmrt;
+/// # use aplomb_training::anticipation::basis::Basis;
+/// // Trajectories that were learned for masses of 1 to 5 kg: here they differ in one displacement.
+/// let learned = |mass: f64| Cmrt {
+///     value: mass, length: 2.0, times: vec![0.5, 1.0, 1.5], displacements: vec![0.0, 0.01 * mass, 0.0],
+/// };
+/// let family = (1..=5).map(|mass| learned(f64::from(mass))).collect();
+/// let basis = Basis::new("lift", "mass", 1, family, 1)?;
+/// assert!(basis.explained[0] > 0.99); // one component is enough
+/// let middle = basis.trajectory(&[0.5], 2.0);
+/// assert!((middle.displacements[1] - 0.03).abs() < 1e-4);
+/// # Ok::<(), aplomb_framework::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Basis {

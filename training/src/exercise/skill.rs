@@ -10,6 +10,17 @@ use aplomb_framework::input::{Error, Result};
 use xxhash_rust::xxh3::Xxh3;
 
 /// A controller of a repertoire.
+///
+/// ```
+/// # use aplomb_framework::Model;
+/// # use aplomb_training::exercise::Skill;
+/// let registry = aplomb_controllers::registry();
+/// let all = Skill::all("humanoid", &registry, &Model::load("humanoid")?)?;
+/// let roll = Skill::find(&all, "roll")?;
+/// assert_eq!((roll.name(), roll.kind()), ("roll", "pose"));
+/// assert!(Skill::find(&all, "role").is_err()); // says which there are
+/// # Ok::<(), aplomb_framework::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Skill {
     /// As it stands in its file.

@@ -43,6 +43,17 @@ pub struct Best {
 ///
 /// # Panics
 /// If `start` is empty.
+///
+/// ```
+/// # use std::ops::ControlFlow;
+/// # use aplomb_training::search::cma_es::{Search, minimise, population};
+/// let search = Search { sigma: 0.2, population: population(2), evaluations: 300, seed: 1 };
+/// let cost = |x: &[f64]| (x[0] - 0.7).powi(2) + (x[1] - 0.2).powi(2);
+/// let best = minimise(&[0.5, 0.5], search, cost, |_, best| {
+///     if best.cost < 1e-6 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+/// });
+/// assert!((best.point[0] - 0.7).abs() < 0.01, "{best:?}");
+/// ```
 pub fn minimise(
     start: &[f64],
     search: Search,

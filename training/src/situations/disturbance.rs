@@ -75,6 +75,18 @@ pub struct Unharmed {
 }
 
 /// The distribution of a controller's rollouts.
+///
+/// ```
+/// # use aplomb_framework::{Model, input::Source};
+/// # use aplomb_training::situations::disturbance::Disturbance;
+/// let text = r#"(features: ["com_offset", "com_velocity_x"], starts: [()], during: [Servos],
+///     force: (links: ["torso"], most: 300, time: (0.05, 0.2)), offset: 0.2, pause: (0, 0.3), within: 4)"#;
+/// let model = Model::load("humanoid")?;
+/// assert_eq!(Disturbance::parse(&Source::new("mine.ron", text), &model)?.features.len(), 2);
+/// let wrong = Source::new("mine.ron", text.replace("torso", "torsoe"));
+/// assert!(Disturbance::parse(&wrong, &model).unwrap_err().to_string().contains("'torso'"));
+/// # Ok::<(), aplomb_framework::Error>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Disturbance {

@@ -6,6 +6,14 @@ use aplomb_framework::world::Settings;
 use rand::Rng;
 
 /// Ranges from which a world is drawn evenly.
+///
+/// ```
+/// # use aplomb_training::situations::Worlds;
+/// use rand::SeedableRng;
+/// let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+/// let world = Worlds::VARIED.draw(&mut rng);
+/// assert!((0.6..=1.2).contains(&world.friction));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Worlds {
     /// Friction coefficient of the ground.
