@@ -213,12 +213,22 @@ mod tests {
         }
     }
 
+    /// So many cases as the environment asks for, else as many as are soon tried.
+    fn many() -> ProptestConfig {
+        let asked = std::env::var("PROPTEST_CASES").ok();
+        let cases = asked.and_then(|cases| cases.parse().ok());
+        ProptestConfig::with_cases(cases.unwrap_or(20_000))
+    }
+
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(500_000))]
+        #![proptest_config(many())]
 
         #[test]
         fn any_text_is_parsed_or_refused(text in ".{0,40}") {
-            let _ = text.parse::<Command>();
+            match text.parse::<Command>() {
+                Ok(command) => prop_assert!(!command.name.is_empty()),
+                Err(error) => prop_assert!(!error.to_string().is_empty()),
+            }
         }
 
         #[test]
