@@ -100,7 +100,7 @@ type Build = fn(&Source, &RawValue, Contract, &Arc<Model>) -> Result<Box<dyn Con
 /// let registry = Registry::new().with_file("repertoires/faint.ron", text);
 /// // The file is known, its kind of controller is not: see `with`.
 /// let refusal = repertoire::load("faint", &registry, &Model::load("humanoid")?).unwrap_err();
-/// assert!(refusal.to_string().contains("unknown kind"), "{refusal}");
+/// assert!(refusal.to_string().contains("kind is 'limp'"), "{refusal}");
 /// # Ok::<(), aplomb_framework::Error>(())
 /// ```
 #[derive(Debug, Clone, Default)]

@@ -44,7 +44,7 @@ pub(super) struct ConstantForce {
 ///     world.actuate(it, &torques);
 ///     world.step();
 /// }
-/// assert!(world.sense(it).com[1] < model.standing_com[1]); // without torques it sinks
+/// assert!(world.sense(it).com[1] < model.standing_com()[1]); // without torques it sinks
 /// # Ok::<(), aplomb_framework::Error>(())
 /// ```
 pub struct World {
