@@ -5,6 +5,8 @@
 use crate::math::exp;
 use serde::{Deserialize, Serialize};
 
+use crate::control::boundary::packed;
+
 /// The decision function of the normalised features z. 0 or more: success is expected.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,10 +27,10 @@ pub enum DecisionFunction {
         /// The score far away from all support vectors.
         offset: f64,
         /// Support vectors, normalised like z; at most [`MOST_SUPPORT_VECTORS`](crate::control::boundary::MOST_SUPPORT_VECTORS).
-        #[serde(with = "crate::control::boundary::packed::vectors")]
+        #[serde(with = "packed::vectors")]
         support: Vec<Vec<f64>>,
         /// One a support vector.
-        #[serde(with = "crate::control::boundary::packed::weights")]
+        #[serde(with = "packed::weights")]
         weights: Vec<f64>,
     },
 }

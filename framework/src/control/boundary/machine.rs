@@ -12,14 +12,11 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::control::boundary::kernel::DecisionFunction;
+use crate::control::boundary::packed::MOST_FEATURES;
 use crate::input::{Result, Source};
 use crate::math::exp;
 use crate::sensing::{Feature, Sensors};
 
-/// At most this many features a boundary, so that they fit into an array on the stack.
-pub const MOST_FEATURES: usize = 64;
-/// At most this many support vectors a boundary.
-pub const MOST_SUPPORT_VECTORS: usize = 20_000;
 /// The largest boundary file that is read: 32 MiB.
 pub const LARGEST_BOUNDARY: u64 = 32 << 20;
 

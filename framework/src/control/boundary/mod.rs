@@ -16,7 +16,5 @@ pub use bounds::monomials;
 pub use kernel::DecisionFunction;
 #[cfg(test)]
 pub(crate) use machine::tests;
-pub use machine::{
-    Boundary, BoundaryFigures, Calibration, LARGEST_BOUNDARY, MOST_FEATURES, MOST_SUPPORT_VECTORS,
-    VERSION,
-};
+pub use machine::{Boundary, BoundaryFigures, Calibration, LARGEST_BOUNDARY, VERSION};
+pub use packed::{MOST_FEATURES, MOST_SUPPORT_VECTORS};

@@ -21,8 +21,10 @@ use flate2::{Compression, Crc};
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 use serde::ser::{Serialize, Serializer};
 
-use crate::control::boundary::machine::{MOST_FEATURES, MOST_SUPPORT_VECTORS};
-
+/// At most this many features a boundary, so that they fit into an array on the stack.
+pub const MOST_FEATURES: usize = 64;
+/// At most this many support vectors a boundary.
+pub const MOST_SUPPORT_VECTORS: usize = 20_000;
 /// Steps of a component within 1.
 const STEPS: f64 = 10_000.0;
 const ACCEPTED: &str = "a list of numbers, or 'ROWS x WIDTH crc32:CHECKSUM DATA' as `aplomb train preconditions` writes it";
