@@ -198,10 +198,10 @@ fn run(commands: &str, folder: &Path, place: &str) -> String {
 /// A command for the shell, with the built program first on the path.
 fn command(line: &str) -> Command {
     if line.starts_with("cargo run") {
-        let name = line
+        let mut name = line
             .split_whitespace()
             .skip_while(|word| *word != "--example");
-        return Command::new(example(name.skip(1).next().unwrap()));
+        return Command::new(example(name.nth(1).unwrap()));
     }
     let program = Path::new(env!("CARGO_BIN_EXE_aplomb"));
     let path = format!("{}:{}", program.parent().unwrap().display(), env!("PATH"));
