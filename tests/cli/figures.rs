@@ -96,7 +96,7 @@ fn a_basis_has_three_figures() {
     let expected = ["components", "family", "variance"];
     let expected = expected.map(|n| format!("bend.{n}.svg"));
     assert_eq!(names(&drawn), expected);
-    let figure = |name: &str| drawn[&format!("fast_bend.{name}.svg")].as_str();
+    let figure = |name: &str| drawn[&format!("bend.{name}.svg")].as_str();
     let values = ["(m)", "(s)", "duration", "0.3", "0.6"];
     let mut sights = values.map(|v| Sight::Text(v, 1)).to_vec();
     // The grid, the frame and three curves with their knots are in other colours than a component.

@@ -97,7 +97,7 @@ fn states_and_conditions_are_referred_to_by_name() {
         (r#"(name: "end", duration: 1)"#, "not 'end'"),
         (
             r#"(duration: 1, expects: Named("pu"))"#,
-            "unknown condition 'pu'",
+            "x.ron:2:52: spec.states[0].expects is 'pu'; accepted: a condition: up",
         ),
         (r#"(duration: 1, next: 0)"#, "x.ron:"),
     ];

@@ -223,16 +223,25 @@ mod tests {
         let rise = |rest: &str| format!("Rise(goal: Stand, {rest})");
         let refusals = [
             (rise("heaps: 2, impulse: (70, 260)"), "heaps is 2"),
-            (rise("heaps: 0.5, impulse: (70, 7)"), "impulse is (70, 7)"),
-            (rise("heaps: 0.5, impulse: (-1, 7)"), "0 to 1000 N·s"),
-            (rise("heaps: 0.5, impulse: (7, 2000)"), "(7, 2000)"),
+            (
+                rise("heaps: 0.5, impulse: (70, 7)"),
+                "impulse[1] is 7; accepted: above 70, at most 1000",
+            ),
+            (
+                rise("heaps: 0.5, impulse: (-1, 7)"),
+                "impulse[0] is -1; accepted: 0 to 1000",
+            ),
+            (rise("heaps: 0.5, impulse: (7, 2000)"), "impulse[1] is 2000"),
             (
                 rise("heaps: 0.5, impulse: (7, 8), disturbance: \"rol\""),
                 "'roll'",
             ),
             ("Fall(impulse: (1, 2), sites: [])".into(), "a list of 0"),
             ("Jump(height: 1)".into(), "Jump"),
-            ("Stand(forward: (1, 2), backward: (3, 3))".into(), "(3, 3)"),
+            (
+                "Stand(forward: (1, 2), backward: (3, 3))".into(),
+                "backward[1] is 3; accepted: above 3",
+            ),
         ];
         for (exercise, why) in refusals {
             let told = told(&exercise).unwrap_err();
