@@ -411,3 +411,47 @@ fn the_drawing_of_the_rooms_is_that_of_the_code() {
         "run it with UPDATE_GOLDEN=1 to draw anew:\n{drawing}"
     );
 }
+
+/// Names of the types that a text declares.
+fn declared(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter_map(|line| {
+        let line = line.trim_start();
+        let line = line.strip_prefix("pub ").unwrap_or_else(|| {
+            let restricted = line.strip_prefix("pub(").and_then(|l| l.split_once(") "));
+            restricted.map_or(line, |(_, rest)| rest)
+        });
+        let kinds = ["struct ", "enum ", "trait ", "type "];
+        let rest = kinds.iter().find_map(|kind| line.strip_prefix(kind))?;
+        let end = rest
+            .find(|c: char| !c.is_alphanumeric())
+            .unwrap_or(rest.len());
+        Some(&rest[..end])
+    })
+}
+
+/// The associated types that traits of others ask for.
+const ASSOCIATED: [&str; 2] = ["Err", "Value"];
+
+#[test]
+fn a_type_name_stands_once_in_the_workspace() {
+    let mut found: BTreeMap<String, BTreeSet<PathBuf>> = BTreeMap::new();
+    for (root, _) in CRATES {
+        for (path, text) in read(root) {
+            for name in declared(&text) {
+                found
+                    .entry(name.to_owned())
+                    .or_default()
+                    .insert(path.clone());
+            }
+        }
+    }
+    assert!(found.len() > 200, "{} types", found.len());
+    found.retain(|name, files| files.len() > 1 && !ASSOCIATED.contains(&name.as_str()));
+    assert!(found.is_empty(), "{found:#?}");
+}
+
+#[test]
+fn declarations_are_read() {
+    let text = "pub struct A;\n  pub(super) enum B {\ntype C<T> = Vec<T>;\nlet structure = 1;\npub(in crate::x) trait D: E {}\n";
+    assert_eq!(declared(text).collect::<Vec<_>>(), ["A", "B", "C", "D"]);
+}

@@ -15,7 +15,7 @@ use super::arguments::{ClipSettings, Json, Seed};
 use super::output::write_json;
 use super::scene::set_all;
 use super::values::Setting;
-use super::{Verdict, work};
+use super::{Ending, work};
 
 /// List the clips, and measure them without and with anticipation
 ///
@@ -44,7 +44,7 @@ pub(super) struct ClipsArgs {
 
 /// One clip. Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-pub(super) struct Row {
+pub(super) struct ClipRow {
     clip: String,
     character: String,
     parameters: BTreeMap<String, f64>,
@@ -58,24 +58,25 @@ pub(super) struct Row {
 }
 
 impl ClipsArgs {
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         let rows = self.jobs.threads()?.install(|| self.measure())?;
         if self.json.wanted {
             write_json(out, &rows)?;
         } else {
             print(out, &rows)?;
         }
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 
     /// What `--json` prints; it is measured in the threads of the caller.
-    pub(super) fn measure(&self) -> Result<Vec<Row>> {
+    pub(super) fn measure(&self) -> Result<Vec<ClipRow>> {
         let names: Vec<String> = if self.clips.is_empty() {
             aplomb::scenarios::clips().map(str::to_owned).collect()
         } else {
             self.clips.clone()
         };
-        let row = |name: &String| Row::new(&load(name, &self.settings.set, None)?, self.seed.value);
+        let row =
+            |name: &String| ClipRow::new(&load(name, &self.settings.set, None)?, self.seed.value);
         names.iter().map(row).collect()
     }
 }
@@ -91,7 +92,7 @@ pub(super) fn load(name: &str, set: &[Setting], motion: Option<usize>) -> Result
     )?)
 }
 
-impl Row {
+impl ClipRow {
     fn new(clip: &Clip, seed: u64) -> Result<Self> {
         let [preparation, task, decay] = clip.phases();
         let shipped = clip.shipped();
@@ -110,7 +111,7 @@ impl Row {
     }
 }
 
-fn print(out: &mut dyn Write, rows: &[Row]) -> std::io::Result<()> {
+fn print(out: &mut dyn Write, rows: &[ClipRow]) -> std::io::Result<()> {
     let wide = rows.iter().map(|r| r.clip.len()).max().unwrap_or(0);
     writeln!(
         out,

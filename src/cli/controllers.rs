@@ -10,7 +10,7 @@ use aplomb::framework::sensing::Feature;
 use clap::Args;
 use serde::Serialize;
 
-use super::Verdict;
+use super::Ending;
 use super::arguments::Json;
 use super::output::write_json;
 use super::scene::CastArgs;
@@ -45,7 +45,7 @@ struct Word {
 }
 
 #[derive(Debug, Serialize)]
-struct Row {
+struct ControllerRow {
     name: String,
     kind: Option<String>,
     weight: u32,
@@ -63,7 +63,7 @@ struct Row {
 }
 
 impl ControllersArgs {
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         if self.features {
             return list_features(out, self.json.wanted);
         }
@@ -79,17 +79,17 @@ impl ControllersArgs {
             .map(|f| (f.contract.name, f.kind))
             .collect();
         let pool = simulation.actors()[0].supervisor.controllers();
-        let rows: Vec<Row> = pool.map(|c| row(c.contract(), &kinds)).collect();
+        let rows: Vec<ControllerRow> = pool.map(|c| row(c.contract(), &kinds)).collect();
         if self.json.wanted {
             write_json(out, &rows)?;
         } else {
             print(out, &rows)?;
         }
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 }
 
-fn list_features(out: &mut dyn Write, json: bool) -> Result<Verdict> {
+fn list_features(out: &mut dyn Write, json: bool) -> Result<Ending> {
     let words: Vec<Word> = Feature::vocabulary()
         .chain(Feature::FAMILIES)
         .map(|(name, unit, meaning)| Word {
@@ -110,11 +110,11 @@ fn list_features(out: &mut dyn Write, json: bool) -> Result<Verdict> {
             writeln!(out, "{name:18} {unit:8} {meaning}")?;
         }
     }
-    Ok(Verdict::Done)
+    Ok(Ending::Done)
 }
 
-fn row(contract: &Contract, kinds: &BTreeMap<String, String>) -> Row {
-    Row {
+fn row(contract: &Contract, kinds: &BTreeMap<String, String>) -> ControllerRow {
+    ControllerRow {
         name: contract.name.clone(),
         kind: kinds.get(&contract.name).cloned(),
         weight: contract.weight,
@@ -129,9 +129,9 @@ fn row(contract: &Contract, kinds: &BTreeMap<String, String>) -> Row {
     }
 }
 
-fn print(out: &mut dyn Write, rows: &[Row]) -> std::io::Result<()> {
-    let width = |of: fn(&Row) -> &str| rows.iter().map(|r| of(r).chars().count()).max();
-    let kind = |r: &Row| r.kind.as_deref().map_or("-", |k| k).to_owned();
+fn print(out: &mut dyn Write, rows: &[ControllerRow]) -> std::io::Result<()> {
+    let width = |of: fn(&ControllerRow) -> &str| rows.iter().map(|r| of(r).chars().count()).max();
+    let kind = |r: &ControllerRow| r.kind.as_deref().map_or("-", |k| k).to_owned();
     let names = width(|r| &r.name).unwrap_or(0).max(10);
     let kinds = width(|r| r.kind.as_deref().unwrap_or("-"))
         .unwrap_or(0)

@@ -11,7 +11,7 @@ use aplomb::framework::input::{Error, stream_atomically};
 use aplomb::framework::run::{Datum, Export, Trajectory};
 use clap::Args;
 
-use super::Verdict;
+use super::Ending;
 use super::output::check_writable;
 use super::values::number;
 
@@ -45,7 +45,7 @@ pub(super) struct ExportArgs {
 }
 
 impl ExportArgs {
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         check_format(&self.output)?;
         check_writable(&self.output)?;
         let trajectory = Trajectory::read(&self.trajectory)?;
@@ -65,7 +65,7 @@ impl ExportArgs {
             Ok(())
         })?;
         writeln!(out, "{rows} rows written to {}", self.output.display())?;
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 }
 

@@ -40,7 +40,7 @@ use output::{Output, message};
 #[command(name = "aplomb", version, after_help = UNITS)]
 struct Cli {
     #[command(subcommand)]
-    command: Option<Command>,
+    command: Option<Action>,
 }
 
 /// Said once for all subcommands.
@@ -52,7 +52,7 @@ Exit codes: 0 done; 1 an expectation of the run was not met; 2 bad usage or bad 
 Example: aplomb run --push 1:torso:-40 --explain";
 
 #[derive(Debug, Subcommand)]
-enum Command {
+enum Action {
     Run(run::RunArgs),
     Trials(trials::TrialsArgs),
     Shell(shell::ShellArgs),
@@ -69,7 +69,7 @@ enum Command {
 
 /// What a finished subcommand tells the shell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Verdict {
+enum Ending {
     /// Done: 0.
     Done,
     /// An expectation of the run was not met: 1.
@@ -79,20 +79,20 @@ enum Verdict {
 }
 
 impl Cli {
-    fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    fn run(self, out: &mut dyn Write) -> Result<Ending> {
         match self.command {
             None => story::tell(out),
-            Some(Command::Run(args)) => args.run(out),
-            Some(Command::Trials(args)) => args.run(out),
-            Some(Command::Shell(args)) => args.run(out),
-            Some(Command::Controllers(args)) => args.run(out),
-            Some(Command::Clips(args)) => args.run(out),
-            Some(Command::Train(command)) => command.run(out),
-            Some(Command::Compare(args)) => args.run(out),
-            Some(Command::Robustness(args)) => args.run(out),
-            Some(Command::Render(args)) => args.run(out),
-            Some(Command::Export(args)) => args.run(out),
-            Some(Command::Reproduce(args)) => args.run(out),
+            Some(Action::Run(args)) => args.run(out),
+            Some(Action::Trials(args)) => args.run(out),
+            Some(Action::Shell(args)) => args.run(out),
+            Some(Action::Controllers(args)) => args.run(out),
+            Some(Action::Clips(args)) => args.run(out),
+            Some(Action::Train(command)) => command.run(out),
+            Some(Action::Compare(args)) => args.run(out),
+            Some(Action::Robustness(args)) => args.run(out),
+            Some(Action::Render(args)) => args.run(out),
+            Some(Action::Export(args)) => args.run(out),
+            Some(Action::Reproduce(args)) => args.run(out),
         }
     }
 }
@@ -107,9 +107,9 @@ pub(crate) fn main() -> ExitCode {
         Ok(verdict)
     });
     match result {
-        Ok(Verdict::Done) => ExitCode::SUCCESS,
-        Ok(Verdict::Unmet) => ExitCode::from(1),
-        Ok(Verdict::BadLines) => ExitCode::from(2),
+        Ok(Ending::Done) => ExitCode::SUCCESS,
+        Ok(Ending::Unmet) => ExitCode::from(1),
+        Ok(Ending::BadLines) => ExitCode::from(2),
         // Nobody reads on (`| head`): no fault of the run.
         Err(error) if output::reader_left(&error) => ExitCode::SUCCESS,
         Err(error) => {

@@ -7,7 +7,7 @@ use anyhow::{Result, ensure};
 use aplomb::framework::run::Trajectory;
 use clap::Args;
 
-use super::Verdict;
+use super::Ending;
 use super::output::check_picture;
 
 /// Draw a recorded run
@@ -31,7 +31,7 @@ pub(super) struct RenderArgs {
 }
 
 impl RenderArgs {
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         check_picture(&self.output)?;
         let trajectory = Trajectory::read(&self.trajectory)?;
         ensure!(
@@ -41,6 +41,6 @@ impl RenderArgs {
         );
         aplomb::render::write(&trajectory, &self.output, self.plot)?;
         writeln!(out, "drawn into {}", self.output.display())?;
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 }

@@ -21,7 +21,7 @@ use super::output::{message, write_json};
 use super::scene::CastArgs;
 use super::train::skills;
 use super::values::whole;
-use super::{Verdict, progress, work};
+use super::{Ending, progress, work};
 
 /// Friction coefficients of the ground: the rows.
 const FRICTIONS: [f64; 4] = [0.6, 0.8, 1.0, 1.2];
@@ -76,7 +76,7 @@ struct Cell {
 
 /// One controller.
 #[derive(Debug, Serialize)]
-struct Row {
+struct RobustnessRow {
     controller: String,
     kind: String,
     goal: String,
@@ -87,16 +87,16 @@ struct Row {
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-pub(super) struct Report {
+pub(super) struct RobustnessReport {
     starts: u64,
     seed: u64,
     wall_s: f64,
     interrupted: bool,
-    controllers: Vec<Row>,
+    controllers: Vec<RobustnessRow>,
 }
 
 impl RobustnessArgs {
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         let stop = work::stop_on_interrupt()?;
         let report = self.jobs.threads()?.install(|| self.measure(&stop))?;
         if report.interrupted {
@@ -107,16 +107,16 @@ impl RobustnessArgs {
         } else {
             print(out, &report)?;
         }
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 
     /// What `--json` prints; it is measured in the threads of the caller.
-    pub(super) fn measure(&self, stop: &AtomicBool) -> Result<Report> {
+    pub(super) fn measure(&self, stop: &AtomicBool) -> Result<RobustnessReport> {
         let all = skills(&self.cast)?;
         let chosen = self.choose(&all)?;
         let begun = Instant::now();
         let controllers = self.rows(&chosen, stop)?;
-        Ok(Report {
+        Ok(RobustnessReport {
             starts: self.starts,
             seed: self.seed.value,
             wall_s: begun.elapsed().as_secs_f64(),
@@ -143,16 +143,16 @@ impl RobustnessArgs {
     }
 
     /// A row for each, without the worlds that were not finished.
-    fn rows(&self, chosen: &[(&Skill, Task)], stop: &AtomicBool) -> Result<Vec<Row>> {
+    fn rows(&self, chosen: &[(&Skill, Task)], stop: &AtomicBool) -> Result<Vec<RobustnessRow>> {
         let skills: Vec<&Skill> = chosen.iter().map(|(skill, _)| *skill).collect();
-        let row = |(skill, task): &(&Skill, Task)| Row {
+        let row = |(skill, task): &(&Skill, Task)| RobustnessRow {
             controller: skill.name().to_owned(),
             kind: skill.kind().to_owned(),
             goal: goal(task),
             cells: Vec::with_capacity(FRICTIONS.len() * TORQUES.len()),
             least: None,
         };
-        let mut rows: Vec<Row> = chosen.iter().map(row).collect();
+        let mut rows: Vec<RobustnessRow> = chosen.iter().map(row).collect();
         // The starts of a world, and as many rollouts from them.
         let world = 2 * skills.len() as u64 * self.starts;
         let bar = progress::bar(grid().count() as u64 * world, "starts and rollouts");
@@ -220,8 +220,8 @@ fn goal(task: &Task) -> String {
     }
 }
 
-fn print(out: &mut dyn Write, report: &Report) -> std::io::Result<()> {
-    let Report { starts, seed, .. } = report;
+fn print(out: &mut dyn Write, report: &RobustnessReport) -> std::io::Result<()> {
+    let RobustnessReport { starts, seed, .. } = report;
     writeln!(out, "{starts} starts in every world, seed {seed}")?;
     for row in &report.controllers {
         writeln!(out, "\n{}, to {}", row.controller, row.goal)?;

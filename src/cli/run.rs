@@ -13,8 +13,8 @@ use super::arguments::{Json, Record};
 use super::json::RunJson;
 use super::output::{check_picture, check_writable, message, write_json, write_recording};
 use super::scene::{SceneArgs, record};
-use super::values::{Push, Timed, TimedCommand, duration};
-use super::{Verdict, progress, timeline};
+use super::values::{PushArgument, Timed, TimedCommand, duration};
+use super::{Ending, progress, timeline};
 
 /// Run a scenario once
 ///
@@ -35,7 +35,7 @@ pub(super) struct RunArgs {
     /// Pushes the first character at T s with a horizontal impulse in N·s on a link's centre of
     /// mass, + forward, spread over 0.1 s; repeatable
     #[arg(long, value_name = "T:LINK:IMPULSE", allow_hyphen_values = true)]
-    push: Vec<Push>,
+    push: Vec<PushArgument>,
     /// Gives the first character a command at T s; repeatable
     #[arg(long, value_name = "T:STRING", allow_hyphen_values = true)]
     command: Vec<TimedCommand>,
@@ -74,7 +74,7 @@ impl RunArgs {
         Ok((scenario, simulation))
     }
 
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         let (scenario, mut simulation) = self.begin()?;
         self.record.file.as_deref().map_or(Ok(()), check_writable)?;
         self.render.as_deref().map_or(Ok(()), check_picture)?;
@@ -101,10 +101,10 @@ impl RunArgs {
         }
         out.write_all(&told)?;
         match unmet {
-            None => Ok(Verdict::Done),
+            None => Ok(Ending::Done),
             Some(unmet) => {
                 message(format_args!("expectation not met: {unmet}"));
-                Ok(Verdict::Unmet)
+                Ok(Ending::Unmet)
             }
         }
     }

@@ -15,7 +15,7 @@ use super::controllers::usage;
 use super::output::{check_writable, message};
 use super::scene::{SceneArgs, record};
 use super::values::{impulse, number};
-use super::{Verdict, progress, timeline};
+use super::{Ending, progress, timeline};
 
 /// The longest line, bytes.
 const LONGEST_LINE: u64 = 4096;
@@ -48,7 +48,7 @@ pub(super) struct ShellArgs {
 }
 
 impl ShellArgs {
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         let registry = aplomb::controllers::registry();
         let mut scenario = self.scene.load(LONGEST_RUN, &registry)?;
         scenario.duration = LONGEST_RUN;
@@ -68,9 +68,9 @@ impl ShellArgs {
             message(format_args!("recorded in {}", path.display()));
         }
         Ok(if bad > 0 && !person {
-            Verdict::BadLines
+            Ending::BadLines
         } else {
-            Verdict::Done
+            Ending::Done
         })
     }
 }

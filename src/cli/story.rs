@@ -7,7 +7,7 @@ use anyhow::Result;
 use aplomb::framework::run::Simulation;
 
 use super::output::{check_picture, check_writable};
-use super::{Verdict, progress, timeline};
+use super::{Ending, progress, timeline};
 
 /// Where the story is drawn.
 const PICTURE: &str = "out/story.svg";
@@ -15,7 +15,7 @@ const PICTURE: &str = "out/story.svg";
 const RECORDING: &str = "out/story.trajectory";
 
 /// Runs the shipped story.
-pub(super) fn tell(out: &mut dyn Write) -> Result<Verdict> {
+pub(super) fn tell(out: &mut dyn Write) -> Result<Ending> {
     let scenario = aplomb::scenarios::load("story")?;
     let (picture, recording) = (Path::new(PICTURE), Path::new(RECORDING));
     check_picture(picture)?;
@@ -47,7 +47,7 @@ pub(super) fn tell(out: &mut dyn Write) -> Result<Verdict> {
         "To try things yourself: aplomb shell, aplomb run --help"
     )?;
     Ok(match unmet {
-        None => Verdict::Done,
-        Some(_) => Verdict::Unmet,
+        None => Ending::Done,
+        Some(_) => Ending::Unmet,
     })
 }

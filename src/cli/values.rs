@@ -51,13 +51,13 @@ pub(super) fn impulse(text: &str) -> Result<f64, String> {
 
 /// A push: `T:LINK:IMPULSE`.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Push {
+pub(super) struct PushArgument {
     at: f64,
     link: String,
     impulse: f64,
 }
 
-impl FromStr for Push {
+impl FromStr for PushArgument {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -104,7 +104,7 @@ pub(super) trait Timed {
     fn option(&self) -> String;
 }
 
-impl Timed for Push {
+impl Timed for PushArgument {
     fn at(&self) -> f64 {
         self.at
     }
@@ -176,10 +176,10 @@ mod tests {
 
     #[test]
     fn a_push_has_a_time_a_link_and_an_impulse() {
-        let push: Push = "1.5:torso:-40".parse().unwrap();
+        let push: PushArgument = "1.5:torso:-40".parse().unwrap();
         assert_eq!((push.at, push.impulse), (1.5, -40.0));
         for bad in ["x", "1:torso", "1:torso:4:5", "-1:torso:4", "nan:torso:4"] {
-            assert!(bad.parse::<Push>().is_err(), "{bad}");
+            assert!(bad.parse::<PushArgument>().is_err(), "{bad}");
         }
         for bad in [
             "1:torso:nan",
@@ -188,7 +188,7 @@ mod tests {
             "1e9:torso:1",
             "1::",
         ] {
-            assert!(bad.parse::<Push>().is_err(), "{bad}");
+            assert!(bad.parse::<PushArgument>().is_err(), "{bad}");
         }
     }
 

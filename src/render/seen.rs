@@ -23,21 +23,21 @@ static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
 
 /// A line of text and the box around its ink.
 #[derive(Debug)]
-pub(crate) struct Label {
+pub(crate) struct SeenLabel {
     pub(crate) text: String,
     pub(crate) ink: Rect,
 }
 
 /// A filled or drawn line or area.
 #[derive(Debug)]
-pub(crate) struct Outline {
+pub(crate) struct SeenOutline {
     fill: Option<String>,
     stroke: Option<String>,
     pub(crate) points: usize,
     pub(crate) extent: Rect,
 }
 
-impl Outline {
+impl SeenOutline {
     fn has(&self, colour: &str) -> bool {
         [&self.fill, &self.stroke]
             .iter()
@@ -49,8 +49,8 @@ impl Outline {
 #[derive(Debug)]
 pub(crate) struct Seen {
     size: [f32; 2],
-    pub(crate) labels: Vec<Label>,
-    pub(crate) outlines: Vec<Outline>,
+    pub(crate) labels: Vec<SeenLabel>,
+    pub(crate) outlines: Vec<SeenOutline>,
 }
 
 impl Seen {
@@ -78,14 +78,14 @@ impl Seen {
                         Paint::Color(c) => format!("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue),
                         _ => "a pattern".to_owned(),
                     };
-                    self.outlines.push(Outline {
+                    self.outlines.push(SeenOutline {
                         fill: path.fill().map(|f| colour(f.paint())),
                         stroke: path.stroke().map(|s| colour(s.paint())),
                         points: path.data().points().len(),
                         extent: path.abs_bounding_box(),
                     });
                 }
-                Node::Text(text) => self.labels.push(Label {
+                Node::Text(text) => self.labels.push(SeenLabel {
                     text: text.chunks().iter().map(|c| c.text().trim()).collect(),
                     ink: text.flattened().abs_bounding_box(),
                 }),
@@ -95,7 +95,7 @@ impl Seen {
     }
 
     /// The outlines that are filled or drawn in a colour.
-    pub(crate) fn coloured(&self, colour: &str) -> Vec<&Outline> {
+    pub(crate) fn coloured(&self, colour: &str) -> Vec<&SeenOutline> {
         self.outlines.iter().filter(|o| o.has(colour)).collect()
     }
 
@@ -146,7 +146,7 @@ impl Sight<'_> {
             }
             Self::Curve(colour, points, width) => {
                 let curves = seen.coloured(colour);
-                let wide = |o: &&&Outline| o.points >= points && o.extent.width() >= width;
+                let wide = |o: &&&SeenOutline| o.points >= points && o.extent.width() >= width;
                 let found = curves.iter().any(|o| wide(&o));
                 (!found).then(|| format!("no {colour} curve of {points} points over {width} px"))
             }

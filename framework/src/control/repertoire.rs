@@ -48,13 +48,13 @@ enum Entry {
 }
 
 /// A controller of a repertoire with the text that it stands in, and what was learned about it.
-struct Part {
+struct RepertoirePart {
     source: Source,
     controller: ControllerFile,
     learned: Option<(Source, Boundary)>,
 }
 
-impl Part {
+impl RepertoirePart {
     fn of(source: Source) -> Result<Self> {
         Ok(Self {
             controller: source.parse()?,
@@ -141,7 +141,7 @@ pub fn read(name_or_path: &str, registry: &Registry) -> Result<Vec<ControllerFil
     let (source, folder) = open(name_or_path, registry)?;
     let file: RepertoireFile = source.parse()?;
     let parts = parts(&source, &file, folder, registry)?;
-    Ok(parts.into_iter().map(Part::controller).collect())
+    Ok(parts.into_iter().map(RepertoirePart::controller).collect())
 }
 
 /// The repertoire's text, and the folder beside it if it is a file.
@@ -159,7 +159,7 @@ fn parts(
     file: &RepertoireFile,
     folder: Option<&Path>,
     registry: &Registry,
-) -> Result<Vec<Part>> {
+) -> Result<Vec<RepertoirePart>> {
     let count = file.controllers.len();
     let few = check::count("controllers", count, 0..=MOST_CONTROLLERS, "controllers");
     few.map_err(|e| source.locate(e))?;
@@ -171,14 +171,14 @@ fn parts(
     let part = |(i, entry): (usize, &Entry)| {
         let here = FieldPath::from(("controllers", i));
         match entry {
-            Entry::Here(controller) => Ok(Part {
+            Entry::Here(controller) => Ok(RepertoirePart {
                 source: source.part(here.then(FieldPath::inner())),
                 controller: ControllerFile::clone(controller),
                 learned: None,
             }),
             Entry::File(name) => {
                 let path = here.then(FieldPath::inner());
-                Part::of(find(path, name, Kind::Controller)?)
+                RepertoirePart::of(find(path, name, EntryKind::Controller)?)
             }
             Entry::Learned {
                 controller,
@@ -186,9 +186,9 @@ fn parts(
                 confident,
             } => {
                 let path = here.clone().then("controller");
-                let part = Part::of(find(path, controller, Kind::Controller)?)?;
+                let part = RepertoirePart::of(find(path, controller, EntryKind::Controller)?)?;
                 let path = here.then("boundary");
-                let boundary = find(path, boundary, Kind::Boundary)?;
+                let boundary = find(path, boundary, EntryKind::Boundary)?;
                 part.with_boundary(boundary, *confident)
             }
         }
@@ -198,12 +198,12 @@ fn parts(
 
 /// A kind of file that a repertoire names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum EntryKind {
     Controller,
     Boundary,
 }
 
-impl Kind {
+impl EntryKind {
     /// In messages.
     fn name(self) -> &'static str {
         match self {
@@ -239,7 +239,7 @@ struct Shelf<'a> {
 
 impl Shelf<'_> {
     /// The file of this name.
-    fn find(&self, name: &str, kind: Kind) -> Result<Source> {
+    fn find(&self, name: &str, kind: EntryKind) -> Result<Source> {
         let limit = kind.limit();
         let beside: Option<PathBuf> = self.folder.map(|f| f.join(name));
         match (beside, self.registry.file(name)) {

@@ -9,13 +9,13 @@ use std::fmt;
 use ron::value::RawValue;
 use serde::de::{self, DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
-use crate::input::path::{FieldPath, Step};
+use crate::input::path::{FieldPath, PathStep};
 
 /// Byte offset of the value at `path`, or of the innermost value around it that stands in the text
 /// (a field may have been left out).
 pub(super) fn locate(text: &str, path: &FieldPath) -> usize {
     let found = raw(text, path);
-    if let Some(Step::Name(_)) = path.steps().last() {
+    if let Some(PathStep::Name(_)) = path.steps().last() {
         // The slice of a name has no quotes, but it begins at one.
         let at = offset(text, found);
         return at - usize::from(text[..at].ends_with('"'));
@@ -57,15 +57,15 @@ fn trimmed(value: &str) -> &str {
 }
 
 /// One part of the value in `text`.
-fn part<'a>(text: &'a str, step: &Step) -> Option<&'a str> {
+fn part<'a>(text: &'a str, step: &PathStep) -> Option<&'a str> {
     let mut deserializer = ron::Deserializer::from_str(text).ok()?;
-    deserializer.deserialize_any(Part(step)).ok().flatten()
+    deserializer.deserialize_any(ValuePart(step)).ok().flatten()
 }
 
 /// Looks for the part of a value that a step leads to.
-struct Part<'s>(&'s Step);
+struct ValuePart<'s>(&'s PathStep);
 
-impl<'de> Visitor<'de> for Part<'_> {
+impl<'de> Visitor<'de> for ValuePart<'_> {
     type Value = Option<&'de str>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -76,10 +76,10 @@ impl<'de> Visitor<'de> for Part<'_> {
         let mut found = None;
         while let Some(name) = map.next_key_seed(NameSeed)? {
             match self.0 {
-                Step::Field(field) if *field == name.name => {
+                PathStep::Field(field) if *field == name.name => {
                     found = Some(map.next_value::<&RawValue>()?.get_ron());
                 }
-                Step::Name(field) if *field == name.name => {
+                PathStep::Name(field) if *field == name.name => {
                     // A name with escapes is no slice of the text: its value is nearest.
                     let value = map.next_value::<&RawValue>()?.get_ron();
                     found = Some(name.slice.unwrap_or(value));
@@ -92,9 +92,9 @@ impl<'de> Visitor<'de> for Part<'_> {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
         let place = match self.0 {
-            Step::Item(item) => *item,
-            Step::Inner => 0,
-            Step::Field(_) | Step::Name(_) => usize::MAX,
+            PathStep::Item(item) => *item,
+            PathStep::Inner => 0,
+            PathStep::Field(_) | PathStep::Name(_) => usize::MAX,
         };
         let (mut found, mut i) = (None, 0);
         while let Some(item) = list.next_element::<&RawValue>()? {

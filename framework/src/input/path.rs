@@ -6,7 +6,7 @@ use std::fmt;
 
 /// A step from a value to one of its parts.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Step {
+pub(super) enum PathStep {
     /// The value of a field of a struct, or of an entry of a map.
     Field(String),
     /// An item of a list or tuple.
@@ -26,25 +26,25 @@ pub(super) enum Step {
 /// assert_eq!(FieldPath::from("shape.half"), FieldPath::from("shape").then("half"));
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct FieldPath(Vec<Step>);
+pub struct FieldPath(Vec<PathStep>);
 
 impl FieldPath {
     /// The value of an entry of a map; the name may be anything.
     #[must_use]
     pub fn entry(name: &str) -> Self {
-        Self(vec![Step::Field(name.to_owned())])
+        Self(vec![PathStep::Field(name.to_owned())])
     }
 
     /// The name of an entry of a map, where the name itself is refused.
     #[must_use]
     pub fn name(name: &str) -> Self {
-        Self(vec![Step::Name(name.to_owned())])
+        Self(vec![PathStep::Name(name.to_owned())])
     }
 
     /// What a variant such as `Here(…)` or `All(…)` wraps.
     #[must_use]
     pub fn inner() -> Self {
-        Self(vec![Step::Inner])
+        Self(vec![PathStep::Inner])
     }
 
     /// The part `more` of this value.
@@ -54,7 +54,7 @@ impl FieldPath {
         self
     }
 
-    pub(super) fn steps(&self) -> &[Step] {
+    pub(super) fn steps(&self) -> &[PathStep] {
         &self.0
     }
 }
@@ -63,21 +63,21 @@ impl FieldPath {
 impl From<&str> for FieldPath {
     fn from(fields: &str) -> Self {
         let named = fields.split('.').filter(|f| !f.is_empty());
-        Self(named.map(|f| Step::Field(f.to_owned())).collect())
+        Self(named.map(|f| PathStep::Field(f.to_owned())).collect())
     }
 }
 
 /// One field, whatever its name.
 impl From<String> for FieldPath {
     fn from(field: String) -> Self {
-        Self(vec![Step::Field(field)])
+        Self(vec![PathStep::Field(field)])
     }
 }
 
 /// An item of a list or tuple.
 impl From<usize> for FieldPath {
     fn from(item: usize) -> Self {
-        Self(vec![Step::Item(item)])
+        Self(vec![PathStep::Item(item)])
     }
 }
 
@@ -90,16 +90,16 @@ impl From<(&str, usize)> for FieldPath {
 
 impl fmt::Display for FieldPath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some((Step::Name(_), map)) = self.0.split_last() {
+        if let Some((PathStep::Name(_), map)) = self.0.split_last() {
             return write!(f, "a name in {}", Self(map.to_vec()));
         }
         let mut first = true;
         for step in &self.0 {
             match step {
-                Step::Field(name) if first => f.write_str(name)?,
-                Step::Field(name) | Step::Name(name) => write!(f, ".{name}")?,
-                Step::Item(item) => write!(f, "[{item}]")?,
-                Step::Inner => continue,
+                PathStep::Field(name) if first => f.write_str(name)?,
+                PathStep::Field(name) | PathStep::Name(name) => write!(f, ".{name}")?,
+                PathStep::Item(item) => write!(f, "[{item}]")?,
+                PathStep::Inner => continue,
             }
             first = false;
         }

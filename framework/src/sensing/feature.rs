@@ -28,10 +28,10 @@ use crate::sensing::vocabulary::{NONE, SCALARS};
 /// # Ok::<(), aplomb_framework::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Feature(Kind);
+pub struct Feature(FeatureKind);
 
 #[derive(Debug, Clone, PartialEq, Eq)]
-enum Kind {
+enum FeatureKind {
     Scalar(usize),
     Angle { joint: String, index: usize },
     Velocity { joint: String, index: usize },
@@ -45,10 +45,14 @@ impl Feature {
     #[must_use]
     pub fn value(&self, now: &Sensors) -> f64 {
         match &self.0 {
-            Kind::Scalar(i) => (SCALARS[*i].value)(now),
-            Kind::Angle { index, .. } => now.state.angles().get(*index).copied().unwrap_or(NONE),
-            Kind::Velocity { index, .. } => now.state.rates().get(*index).copied().unwrap_or(NONE),
-            Kind::Prop { scalar, prop } => {
+            FeatureKind::Scalar(i) => (SCALARS[*i].value)(now),
+            FeatureKind::Angle { index, .. } => {
+                now.state.angles().get(*index).copied().unwrap_or(NONE)
+            }
+            FeatureKind::Velocity { index, .. } => {
+                now.state.rates().get(*index).copied().unwrap_or(NONE)
+            }
+            FeatureKind::Prop { scalar, prop } => {
                 let sensed = now.props.iter().find(|p| *p.name == **prop);
                 sensed.map_or(NONE, PROP_SCALARS[*scalar].value)
             }
@@ -60,14 +64,16 @@ impl Feature {
     #[must_use]
     pub fn absence(&self, now: &Sensors) -> String {
         match &self.0 {
-            Kind::Prop { prop, .. } => match nearest(prop, now.props.iter().map(|p| &*p.name)) {
-                Some(near) => format!("there is no prop '{prop}'; did you mean '{near}'?"),
-                None => format!("there is no prop '{prop}'"),
-            },
-            Kind::Angle { joint, .. } | Kind::Velocity { joint, .. } => {
+            FeatureKind::Prop { prop, .. } => {
+                match nearest(prop, now.props.iter().map(|p| &*p.name)) {
+                    Some(near) => format!("there is no prop '{prop}'; did you mean '{near}'?"),
+                    None => format!("there is no prop '{prop}'"),
+                }
+            }
+            FeatureKind::Angle { joint, .. } | FeatureKind::Velocity { joint, .. } => {
                 format!("there is no joint '{joint}'")
             }
-            Kind::Scalar(i) => SCALARS[*i].absent.to_owned(),
+            FeatureKind::Scalar(i) => SCALARS[*i].absent.to_owned(),
         }
     }
 
@@ -75,10 +81,10 @@ impl Feature {
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match &self.0 {
-            Kind::Scalar(i) => SCALARS[*i].unit,
-            Kind::Angle { .. } => "rad",
-            Kind::Velocity { .. } => "rad/s",
-            Kind::Prop { scalar, .. } => PROP_SCALARS[*scalar].unit,
+            FeatureKind::Scalar(i) => SCALARS[*i].unit,
+            FeatureKind::Angle { .. } => "rad",
+            FeatureKind::Velocity { .. } => "rad/s",
+            FeatureKind::Prop { scalar, .. } => PROP_SCALARS[*scalar].unit,
         }
     }
 
@@ -88,8 +94,8 @@ impl Feature {
     /// [`Error::Unknown`] if the model has no such joint.
     pub fn resolve(&mut self, model: &Model) -> Result<()> {
         match &mut self.0 {
-            Kind::Scalar(_) | Kind::Prop { .. } => {}
-            Kind::Angle { joint, index } | Kind::Velocity { joint, index } => {
+            FeatureKind::Scalar(_) | FeatureKind::Prop { .. } => {}
+            FeatureKind::Angle { joint, index } | FeatureKind::Velocity { joint, index } => {
                 *index = model.joint_index(joint)?;
             }
         }
@@ -100,7 +106,7 @@ impl Feature {
     #[must_use]
     pub fn prop(&self) -> Option<&str> {
         match &self.0 {
-            Kind::Prop { prop, .. } => Some(prop),
+            FeatureKind::Prop { prop, .. } => Some(prop),
             _ => None,
         }
     }
@@ -131,13 +137,13 @@ impl FromStr for Feature {
     fn from_str(name: &str) -> Result<Self> {
         let joint = |j: &str| j.to_owned();
         if let Some(j) = name.strip_prefix("angle.") {
-            return Ok(Self(Kind::Angle {
+            return Ok(Self(FeatureKind::Angle {
                 joint: joint(j),
                 index: UNRESOLVED,
             }));
         }
         if let Some(j) = name.strip_prefix("velocity.") {
-            return Ok(Self(Kind::Velocity {
+            return Ok(Self(FeatureKind::Velocity {
                 joint: joint(j),
                 index: UNRESOLVED,
             }));
@@ -146,7 +152,7 @@ impl FromStr for Feature {
             && let Some(scalar) = PROP_SCALARS.iter().position(|s| s.name == kind)
         {
             let prop = prop.to_owned();
-            return Ok(Self(Kind::Prop { scalar, prop }));
+            return Ok(Self(FeatureKind::Prop { scalar, prop }));
         }
         let known = || {
             let families = Self::FAMILIES.iter().map(|f| f.0);
@@ -155,7 +161,7 @@ impl FromStr for Feature {
         SCALARS
             .iter()
             .position(|s| s.name == name)
-            .map(|i| Self(Kind::Scalar(i)))
+            .map(|i| Self(FeatureKind::Scalar(i)))
             .ok_or_else(|| Error::unknown("feature", name, known()))
     }
 }
@@ -163,10 +169,12 @@ impl FromStr for Feature {
 impl fmt::Display for Feature {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
-            Kind::Scalar(i) => f.write_str(SCALARS[*i].name),
-            Kind::Angle { joint, .. } => write!(f, "angle.{joint}"),
-            Kind::Velocity { joint, .. } => write!(f, "velocity.{joint}"),
-            Kind::Prop { scalar, prop } => write!(f, "{}.{prop}", PROP_SCALARS[*scalar].name),
+            FeatureKind::Scalar(i) => f.write_str(SCALARS[*i].name),
+            FeatureKind::Angle { joint, .. } => write!(f, "angle.{joint}"),
+            FeatureKind::Velocity { joint, .. } => write!(f, "velocity.{joint}"),
+            FeatureKind::Prop { scalar, prop } => {
+                write!(f, "{}.{prop}", PROP_SCALARS[*scalar].name)
+            }
         }
     }
 }

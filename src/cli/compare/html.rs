@@ -5,7 +5,7 @@ use anyhow::{Context, Result};
 use aplomb::render::comparison::{Figure, figures};
 use aplomb::training::preconditions::report::Report;
 
-use super::read::Entry;
+use super::read::ReportFile;
 use super::table::{Table, both, name, short};
 
 /// Fonts, spaces, and where paper may break.
@@ -14,7 +14,7 @@ const STYLE: &str = include_str!("page.css");
 const NAMESPACE: &str = " xmlns=\"http://www.w3.org/2000/svg\"";
 
 /// The whole page.
-pub(super) fn page(entries: &[Entry]) -> Result<String> {
+pub(super) fn page(entries: &[ReportFile]) -> Result<String> {
     let mut body = String::from(
         "<h1>Learned pre-conditions</h1>\n<p>A pre-condition foretells whether a controller will \
          succeed from a situation. Compared on rollouts that none of them has seen: a support \

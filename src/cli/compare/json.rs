@@ -6,7 +6,7 @@ use serde::Serialize;
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-struct Row<'a> {
+struct ComparedRow<'a> {
     controller: &'a str,
     train: usize,
     test: usize,
@@ -21,7 +21,7 @@ struct Row<'a> {
 
 /// A list with an entry for each report, on one line.
 pub(super) fn told<'a>(reports: impl Iterator<Item = &'a Report>) -> Result<String> {
-    let rows = reports.map(|r| Row {
+    let rows = reports.map(|r| ComparedRow {
         controller: &r.controller,
         train: r.train,
         test: r.test,
@@ -31,6 +31,6 @@ pub(super) fn told<'a>(reports: impl Iterator<Item = &'a Report>) -> Result<Stri
         manual: &r.manual,
         majority: r.majority,
     });
-    let rows: Vec<Row> = rows.collect();
+    let rows: Vec<ComparedRow> = rows.collect();
     Ok(serde_json::to_string(&rows)? + "\n")
 }

@@ -16,7 +16,7 @@ use anyhow::Result;
 use aplomb::framework::input::write_atomically;
 use clap::{Args, ValueEnum};
 
-use super::Verdict;
+use super::Ending;
 use super::output::{check_writable, message};
 
 /// How the comparison is told.
@@ -58,7 +58,7 @@ pub(super) struct CompareArgs {
 }
 
 impl CompareArgs {
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         if let Some(path) = &self.out {
             check_writable(path)?;
         }
@@ -77,6 +77,6 @@ impl CompareArgs {
             }
             None => out.write_all(text.as_bytes())?,
         }
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 }

@@ -15,13 +15,13 @@ const LARGEST: u64 = 1 << 24;
 
 /// A report and where it stands.
 #[derive(Debug)]
-pub(super) struct Entry {
+pub(super) struct ReportFile {
     pub(super) path: PathBuf,
     pub(super) report: Report,
 }
 
 /// All reports of a folder, at least one.
-pub(super) fn folder(folder: &Path) -> Result<Vec<Entry>> {
+pub(super) fn folder(folder: &Path) -> Result<Vec<ReportFile>> {
     let fail = |e: std::io::Error| Error::Read {
         path: folder.to_owned(),
         reason: e.to_string(),
@@ -44,11 +44,11 @@ pub(super) fn folder(folder: &Path) -> Result<Vec<Entry>> {
     paths.into_iter().map(entry).collect()
 }
 
-fn entry(path: PathBuf) -> Result<Entry> {
+fn entry(path: PathBuf) -> Result<ReportFile> {
     let bytes = read_bounded(&path, LARGEST)?;
     let report = serde_json::from_slice(&bytes).map_err(|e| syntax(&path, &e))?;
     check(&path, &report)?;
-    Ok(Entry { path, report })
+    Ok(ReportFile { path, report })
 }
 
 /// The parser's complaint with its place in front, as in messages of all other files.

@@ -9,7 +9,7 @@ use clap::Parser;
 use serde_json::{Value, to_value};
 
 use crate::cli::train::TrainCommand;
-use crate::cli::{Cli, Command};
+use crate::cli::{Action, Cli};
 
 /// What a command, such as `aplomb trials --count 10`, prints with `--json`. It runs in the threads of
 /// the caller, whatever its `--jobs` says. If it is stopped the value is not complete.
@@ -20,13 +20,13 @@ pub(super) fn value(command: &str, stop: &AtomicBool) -> Result<Value> {
     ensure!(!stop.load(Ordering::Relaxed), "stopped");
     let cli = Cli::try_parse_from(command.split_whitespace())?;
     Ok(match cli.command {
-        Some(Command::Run(args)) => to_value(args.measure()?)?,
-        Some(Command::Trials(args)) => to_value(args.measure(stop)?)?,
-        Some(Command::Robustness(args)) => to_value(args.measure(stop)?)?,
-        Some(Command::Clips(args)) => to_value(args.measure()?)?,
-        Some(Command::Train(TrainCommand::Preconditions(args))) => to_value(args.measure(stop)?)?,
-        Some(Command::Train(TrainCommand::Cmrt(args))) => to_value(args.measure(stop)?)?,
-        Some(Command::Train(TrainCommand::Basis(args))) => to_value(args.measure(stop)?)?,
+        Some(Action::Run(args)) => to_value(args.measure()?)?,
+        Some(Action::Trials(args)) => to_value(args.measure(stop)?)?,
+        Some(Action::Robustness(args)) => to_value(args.measure(stop)?)?,
+        Some(Action::Clips(args)) => to_value(args.measure()?)?,
+        Some(Action::Train(TrainCommand::Preconditions(args))) => to_value(args.measure(stop)?)?,
+        Some(Action::Train(TrainCommand::Cmrt(args))) => to_value(args.measure(stop)?)?,
+        Some(Action::Train(TrainCommand::Basis(args))) => to_value(args.measure(stop)?)?,
         _ => bail!("{command}: there is nothing to measure"),
     })
 }

@@ -16,7 +16,7 @@ const LARGEST: u64 = 1 << 28;
 
 /// A finished part.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Part {
+pub(super) struct KeptPart {
     /// When it was finished, as 2026-01-31.
     pub(super) date: String,
     /// s
@@ -30,7 +30,7 @@ pub(super) struct Part {
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Content {
     build: String,
-    parts: BTreeMap<String, Part>,
+    parts: BTreeMap<String, KeptPart>,
 }
 
 /// The file of finished parts.
@@ -58,12 +58,12 @@ impl Kept {
     }
 
     /// The result of a command, if there is one.
-    pub(super) fn part(&self, command: &str) -> Option<&Part> {
+    pub(super) fn part(&self, command: &str) -> Option<&KeptPart> {
         self.content.parts.get(command)
     }
 
     /// Keeps the result of a command, and writes the file.
-    pub(super) fn keep(&mut self, command: &str, part: Part) -> Result<()> {
+    pub(super) fn keep(&mut self, command: &str, part: KeptPart) -> Result<()> {
         self.content.parts.insert(command.to_owned(), part);
         let bytes = serde_json::to_vec(&self.content)?;
         Ok(write_atomically(&self.path, &bytes)?)
@@ -85,7 +85,7 @@ mod tests {
     fn parts_are_found_again_by_the_same_build_alone() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/state.json");
-        let part = Part {
+        let part = KeptPart {
             date: "2026-01-31".to_owned(),
             wall_s: 1.5,
             jobs: 2,

@@ -20,11 +20,11 @@ use clap::Args;
 
 use super::output::{check_writable, message};
 use super::values::whole;
-use super::{Verdict, work as threads};
+use super::{Ending, work as threads};
 use kept::Kept;
 use page::Page;
 use study::Study;
-use work::{Interrupted, Settings, Work};
+use work::{Interrupted, StudySettings, Work};
 
 /// Where finished parts are kept.
 const STATE: &str = "out/reproduce/state.json";
@@ -66,7 +66,7 @@ pub(super) struct ReproduceArgs {
 }
 
 impl ReproduceArgs {
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         if self.list {
             return list(out);
         }
@@ -76,7 +76,7 @@ impl ReproduceArgs {
         }
         let mut kept = Kept::open(Path::new(STATE), &kept::build()?);
         let stop = threads::stop_on_interrupt()?;
-        let settings = Settings {
+        let settings = StudySettings {
             quick: self.quick,
             seed: self.seed,
         };
@@ -109,7 +109,7 @@ impl ReproduceArgs {
                 self.renew(Path::new("README.md"), study, &page)?;
             }
         }
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 
     fn chosen(&self) -> Result<Vec<&'static Study>> {
@@ -142,7 +142,7 @@ impl ReproduceArgs {
     }
 }
 
-fn list(out: &mut dyn Write) -> Result<Verdict> {
+fn list(out: &mut dyn Write) -> Result<Ending> {
     let wide = studies::ALL.iter().map(|s| s.name.len()).max();
     let wide = wide.unwrap_or(0);
     for Study {
@@ -153,5 +153,5 @@ fn list(out: &mut dyn Write) -> Result<Verdict> {
         writeln!(out, "{name:wide$}  {about}")?;
         writeln!(out, "{:wide$}  about {full}; with --quick {quick}", "")?;
     }
-    Ok(Verdict::Done)
+    Ok(Ending::Done)
 }

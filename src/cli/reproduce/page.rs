@@ -4,7 +4,7 @@
 
 use std::fmt::Write;
 
-use super::work::{Settings, Used};
+use super::work::{StudySettings, Used};
 
 /// A figure that README shows.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -56,7 +56,7 @@ impl Page {
     }
 
     /// The whole page.
-    pub(super) fn markdown(&self, study: &str, settings: Settings, used: &[Used]) -> String {
+    pub(super) fn markdown(&self, study: &str, settings: StudySettings, used: &[Used]) -> String {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let newest = used.iter().map(|u| u.date.as_str()).max();
         let newest = newest.unwrap_or("nothing was run");
@@ -116,7 +116,7 @@ mod tests {
             wall_s: 2.4,
             jobs: 2,
         };
-        let settings = Settings {
+        let settings = StudySettings {
             quick: false,
             seed: 5,
         };

@@ -10,12 +10,12 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::command;
-use super::kept::{Kept, Part};
+use super::kept::{Kept, KeptPart};
 use crate::cli::output::message;
 
 /// How large a study is, and what fixes it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Settings {
+pub(super) struct StudySettings {
     /// Small counts.
     pub(super) quick: bool,
     /// Fixes everything random.
@@ -46,7 +46,7 @@ pub(super) struct Used {
 /// What a study works with.
 #[derive(Debug)]
 pub(super) struct Work<'a> {
-    pub(super) settings: Settings,
+    pub(super) settings: StudySettings,
     pub(super) study: &'static str,
     pub(super) kept: &'a mut Kept,
     pub(super) stop: &'a AtomicBool,
@@ -89,14 +89,14 @@ impl Work<'_> {
         &mut self,
         command: &str,
         make: impl FnOnce(&AtomicBool) -> Result<Value>,
-    ) -> Result<Part> {
+    ) -> Result<KeptPart> {
         self.check()?;
         message(format_args!("{}: {command}", self.study));
         let begun = Instant::now();
         let value = make(self.stop).with_context(|| command.to_owned());
         // What was stopped may be incomplete, or have failed for that.
         self.check()?;
-        let part = Part {
+        let part = KeptPart {
             date: today(),
             wall_s: begun.elapsed().as_secs_f64(),
             jobs: rayon::current_num_threads(),

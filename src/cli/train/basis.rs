@@ -11,7 +11,7 @@ use std::time::Instant;
 use anyhow::{Result, ensure};
 use aplomb::controllers::kinds::cmrt::Cmrt;
 use aplomb::training::anticipation::basis::Basis;
-use aplomb::training::anticipation::search::{Found, Keep};
+use aplomb::training::anticipation::search::{FoundTrajectory, Keep};
 use clap::Args;
 use serde::Serialize;
 
@@ -20,7 +20,7 @@ use super::figures::Figures;
 use crate::cli::arguments::{Json, Resume};
 use crate::cli::output::{check_writable, message, write_json};
 use crate::cli::values::{Setting, whole};
-use crate::cli::{Verdict, work};
+use crate::cli::{Ending, work};
 
 /// Learn what the trajectories of a clip over a parameter have in common
 ///
@@ -37,7 +37,7 @@ pub(in crate::cli) struct BasisArgs {
     clip: String,
     /// The clip's parameter and its range
     #[arg(long, value_name = "KEY=LOW..HIGH")]
-    over: Over,
+    over: OverRange,
     /// Number of trajectories
     #[arg(long, value_name = "N", default_value = "11",
           value_parser = whole(2, 1000), allow_negative_numbers = true)]
@@ -63,13 +63,13 @@ pub(in crate::cli) struct BasisArgs {
 
 /// A parameter with its range.
 #[derive(Debug, Clone, PartialEq)]
-struct Over {
+struct OverRange {
     key: String,
     low: f64,
     high: f64,
 }
 
-impl FromStr for Over {
+impl FromStr for OverRange {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -90,7 +90,7 @@ impl FromStr for Over {
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-pub(in crate::cli) struct Report {
+pub(in crate::cli) struct BasisReport {
     clip: String,
     parameter: String,
     values: Vec<f64>,
@@ -103,7 +103,7 @@ pub(in crate::cli) struct Report {
 }
 
 impl BasisArgs {
-    pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         let stop = work::stop_on_interrupt()?;
         let report = self
             .search
@@ -115,11 +115,11 @@ impl BasisArgs {
         } else {
             print(out, &report)?;
         }
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 
     /// What `--json` prints; it is searched in the threads of the caller, and all files are written.
-    pub(in crate::cli) fn measure(&self, stop: &AtomicBool) -> Result<Report> {
+    pub(in crate::cli) fn measure(&self, stop: &AtomicBool) -> Result<BasisReport> {
         let stem = Path::new(&self.clip).file_stem().unwrap_or_default();
         let usual = || PathBuf::from(format!("{}.basis.ron", stem.to_string_lossy()));
         let file = self.out.clone().unwrap_or_else(usual);
@@ -163,7 +163,7 @@ impl BasisArgs {
         if let Some(figures) = figures {
             figures.basis(&basis)?;
         }
-        Ok(Report {
+        Ok(BasisReport {
             clip: self.clip.clone(),
             parameter: key.clone(),
             values,
@@ -184,7 +184,7 @@ impl BasisArgs {
         before: Option<&Cmrt>,
         file: &Path,
         stop: &AtomicBool,
-    ) -> Result<Found> {
+    ) -> Result<FoundTrajectory> {
         let key = self.over.key.clone();
         let clip = self
             .search
@@ -201,7 +201,7 @@ impl BasisArgs {
     }
 }
 
-fn print(out: &mut dyn Write, r: &Report) -> std::io::Result<()> {
+fn print(out: &mut dyn Write, r: &BasisReport) -> std::io::Result<()> {
     writeln!(
         out,
         "{} over {}: {} trajectories, {:.1} s",

@@ -15,7 +15,7 @@ use aplomb::training::anticipation::basis::Basis;
 use aplomb::training::anticipation::clip::Clip;
 use aplomb::training::anticipation::encoding::Encoding;
 use aplomb::training::anticipation::objective::Judged;
-use aplomb::training::anticipation::search::{Found, Keep, Plan, search};
+use aplomb::training::anticipation::search::{FoundTrajectory, Keep, TrajectoryPlan, search};
 use aplomb::training::search::journal;
 use clap::Args;
 use cpu_time::ProcessTime;
@@ -25,7 +25,7 @@ use super::figures::Figures;
 use crate::cli::arguments::{ClipSettings, Json, Resume, Seed};
 use crate::cli::output::{check_writable, message, write_json};
 use crate::cli::values::{Setting, number, whole};
-use crate::cli::{Verdict, clips, progress, work};
+use crate::cli::{Ending, clips, progress, work};
 
 /// Learn to anticipate a task: the centre-of-mass reference trajectory of a clip
 ///
@@ -106,7 +106,7 @@ pub(super) struct SearchArgs {
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-pub(in crate::cli) struct Report {
+pub(in crate::cli) struct CmrtReport {
     clip: String,
     parameters: BTreeMap<String, f64>,
     seed: u64,
@@ -128,7 +128,7 @@ pub(in crate::cli) struct Report {
 }
 
 impl CmrtArgs {
-    pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         let stop = work::stop_on_interrupt()?;
         let threads = self.search.jobs.threads()?;
         let report = threads.install(|| self.measure(&stop))?;
@@ -143,11 +143,11 @@ impl CmrtArgs {
         } else {
             print(out, &report)?;
         }
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 
     /// What `--json` prints; it is searched in the threads of the caller, and all files are written.
-    pub(in crate::cli) fn measure(&self, stop: &AtomicBool) -> Result<Report> {
+    pub(in crate::cli) fn measure(&self, stop: &AtomicBool) -> Result<CmrtReport> {
         let clip = self.search.clip(&self.clip)?;
         let file = self.out.clone();
         let file = file.unwrap_or_else(|| PathBuf::from(format!("{}.ron", clip.contract().name)));
@@ -163,7 +163,7 @@ impl CmrtArgs {
                 length: clip.length(),
             },
         };
-        let plan = Plan {
+        let plan = TrajectoryPlan {
             start: clip.shipped().filter(|_| self.warm),
             ..self.search.plan(encoding)
         };
@@ -176,7 +176,7 @@ impl CmrtArgs {
         let flat = Judged::new(&clip, None, seed)?;
         let found = shown(&clip, &plan, keep, stop)?;
         let optimised = Judged::new(&clip, Some(&found.cmrt), seed)?;
-        let report = Report {
+        let report = CmrtReport {
             clip: clip.scenario.name.clone(),
             parameters: clip.parameters(),
             seed,
@@ -221,8 +221,8 @@ impl SearchArgs {
     }
 
     /// A search from the middle of the cube.
-    pub(super) fn plan(&self, encoding: Encoding) -> Plan {
-        Plan {
+    pub(super) fn plan(&self, encoding: Encoding) -> TrajectoryPlan {
+        TrajectoryPlan {
             encoding,
             evaluations: self.evaluations as usize,
             least: self.least as usize,
@@ -235,7 +235,12 @@ impl SearchArgs {
 }
 
 /// A search under a bar.
-pub(super) fn shown(clip: &Clip, plan: &Plan, keep: Keep<'_>, stop: &AtomicBool) -> Result<Found> {
+pub(super) fn shown(
+    clip: &Clip,
+    plan: &TrajectoryPlan,
+    keep: Keep<'_>,
+    stop: &AtomicBool,
+) -> Result<FoundTrajectory> {
     let bar = progress::bar(plan.evaluations as u64, "evaluations");
     let found = search(clip, plan, keep, |found| {
         bar.set_position((found.evaluations as u64).min(plan.evaluations as u64));
@@ -246,7 +251,7 @@ pub(super) fn shown(clip: &Clip, plan: &Plan, keep: Keep<'_>, stop: &AtomicBool)
     Ok(found?)
 }
 
-fn comment(r: &Report) -> String {
+fn comment(r: &CmrtReport) -> String {
     let parameters: Vec<String> = r
         .parameters
         .iter()
@@ -265,8 +270,8 @@ fn comment(r: &Report) -> String {
     )
 }
 
-fn print(out: &mut dyn Write, r: &Report) -> std::io::Result<()> {
-    let Report {
+fn print(out: &mut dyn Write, r: &CmrtReport) -> std::io::Result<()> {
+    let CmrtReport {
         clip,
         evaluations,
         seed,

@@ -7,12 +7,12 @@ use aplomb::controllers::kinds::cmrt::Cmrt;
 use aplomb::framework::input::write_atomically;
 use aplomb::framework::run::Trajectory;
 use aplomb::framework::scenario::Scenario;
-use aplomb::render::anticipation::{Drawing, Learned, Rollout, basis, learned};
+use aplomb::render::anticipation::{Drawing, LearnedTrajectory, Rollout, basis, learned};
 use aplomb::render::{FilmOptions, filmstrip};
 use aplomb::training::anticipation::basis::Basis;
 use aplomb::training::anticipation::clip::Clip;
 use aplomb::training::anticipation::objective::Judged;
-use aplomb::training::anticipation::search::Found;
+use aplomb::training::anticipation::search::FoundTrajectory;
 
 use crate::cli::output::{check_writable, message};
 use crate::cli::scene;
@@ -69,7 +69,7 @@ impl Figures {
     pub(super) fn found(
         &self,
         clip: &Clip,
-        found: &Found,
+        found: &FoundTrajectory,
         flat: &Judged,
         optimised: &Judged,
     ) -> Result<()> {
@@ -81,7 +81,7 @@ impl Figures {
             cop_norm: judged.cop_norm,
         };
         let [preparation, task, decay] = clip.phases();
-        let mut drawings = learned(&Learned {
+        let mut drawings = learned(&LearnedTrajectory {
             controller: &clip.contract().name,
             begin: clip.window()[0],
             phases: [preparation, preparation + task, preparation + task + decay],

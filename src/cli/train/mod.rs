@@ -13,7 +13,7 @@ use aplomb::framework::character::Model;
 use aplomb::training::exercise::skill::Skill;
 use clap::Subcommand;
 
-use super::Verdict;
+use super::Ending;
 use super::scene::CastArgs;
 
 /// Optimise controllers
@@ -27,7 +27,7 @@ pub(super) enum TrainCommand {
 }
 
 impl TrainCommand {
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         match self {
             Self::Basis(args) => args.run(out),
             Self::Cmrt(args) => args.run(out),

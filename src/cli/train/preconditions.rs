@@ -18,7 +18,7 @@ use aplomb::training::preconditions::learning::learn::{LearnSettings, Stage, Sub
 use aplomb::training::preconditions::learning::machine::Kernel;
 use aplomb::training::preconditions::report::Report;
 use aplomb::training::preconditions::rollout::Trial;
-use aplomb::training::preconditions::set::{Files, Gathered, Part, Plan, gather, header};
+use aplomb::training::preconditions::set::{Files, Gathered, SetPart, SetPlan, gather, header};
 use aplomb::training::situations::disturbance;
 use aplomb::training::situations::disturbance::Disturbance;
 use clap::Args;
@@ -30,7 +30,7 @@ use crate::cli::arguments::{Json, Seed};
 use crate::cli::output::{message, write_json};
 use crate::cli::scene::CastArgs;
 use crate::cli::values::whole;
-use crate::cli::{Verdict, progress, work};
+use crate::cli::{Ending, progress, work};
 
 /// Learn where controllers can take over, from rollouts
 ///
@@ -103,7 +103,7 @@ fn kernels(text: &str) -> Result<Kernels, String> {
 
 /// What was done for a controller.
 #[derive(Debug, Serialize)]
-pub(in crate::cli) struct Row {
+pub(in crate::cli) struct PreconditionRow {
     #[serde(flatten)]
     report: Report,
     /// Rollouts of this run; the others were found.
@@ -115,10 +115,10 @@ pub(in crate::cli) struct Row {
 }
 
 impl PreconditionsArgs {
-    pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         let stop = work::stop_on_interrupt()?;
         let threads = self.jobs.threads()?;
-        let tell = |row: &Row| {
+        let tell = |row: &PreconditionRow| {
             if !self.json.wanted {
                 print(out, row)?;
                 out.flush()?;
@@ -129,11 +129,11 @@ impl PreconditionsArgs {
         if self.json.wanted {
             write_json(out, &rows)?;
         }
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 
     /// What `--json` prints; the work is done in the threads of the caller.
-    pub(in crate::cli) fn measure(&self, stop: &AtomicBool) -> Result<Vec<Row>> {
+    pub(in crate::cli) fn measure(&self, stop: &AtomicBool) -> Result<Vec<PreconditionRow>> {
         self.rows(None, stop, |_| Ok(()))
     }
 
@@ -142,8 +142,8 @@ impl PreconditionsArgs {
         &self,
         threads: Option<&ThreadPool>,
         stop: &AtomicBool,
-        mut tell: impl FnMut(&Row) -> Result<()>,
-    ) -> Result<Vec<Row>> {
+        mut tell: impl FnMut(&PreconditionRow) -> Result<()>,
+    ) -> Result<Vec<PreconditionRow>> {
         let skills = skills(&self.cast)?;
         let chosen = chosen(&skills, &self.controllers, self.disturbance.is_some())?;
         if self.disturbance.is_some() && chosen.len() != 1 {
@@ -185,13 +185,13 @@ impl PreconditionsArgs {
         trial: &Trial,
         source: &Source,
         stop: &AtomicBool,
-    ) -> Result<Option<Row>> {
+    ) -> Result<Option<PreconditionRow>> {
         let begun = Instant::now();
         let gather = |part| self.gather(skill, trial, source, part, stop);
-        let Some(train) = gather(Part::Train)? else {
+        let Some(train) = gather(SetPart::Train)? else {
             return Ok(None);
         };
-        let Some(test) = gather(Part::Test)? else {
+        let Some(test) = gather(SetPart::Test)? else {
             return Ok(None);
         };
         let rollouts_s = begun.elapsed().as_secs_f64();
@@ -235,7 +235,7 @@ impl PreconditionsArgs {
         let beside = self.out.join(format!("{}.report.json", skill.name()));
         write_atomically(&beside, &json)?;
         let rollouts = train.fresh + test.fresh;
-        Ok(Some(Row {
+        Ok(Some(PreconditionRow {
             report,
             rollouts,
             rollouts_s,
@@ -249,14 +249,14 @@ impl PreconditionsArgs {
         skill: &Skill,
         trial: &Trial,
         source: &Source,
-        part: Part,
+        part: SetPart,
         stop: &AtomicBool,
     ) -> Result<Option<Gathered>> {
         let count = match part {
-            Part::Train => self.samples,
-            Part::Test => self.test,
+            SetPart::Train => self.samples,
+            SetPart::Test => self.test,
         };
-        let plan = Plan {
+        let plan = SetPlan {
             trial,
             header: header(skill, source, part, self.seed.value, count as usize),
             files: Files::of(&self.out, skill.name(), part),
@@ -318,7 +318,7 @@ fn write_boundary(boundary: &Boundary, path: &Path) -> Result<()> {
     )?)
 }
 
-fn print(out: &mut dyn Write, row: &Row) -> std::io::Result<()> {
+fn print(out: &mut dyn Write, row: &PreconditionRow) -> std::io::Result<()> {
     let r = &row.report;
     let percent = |x: f64| format!("{:.1} %", 100.0 * x);
     writeln!(

@@ -10,7 +10,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, anyhow};
 use aplomb::training::exercise::Score;
 use aplomb::training::exercise::skill::Skill;
-use aplomb::training::search::improve::{Found, Plan, Stage};
+use aplomb::training::search::improve::{FoundNumbers, SearchPlan, SearchStage};
 use aplomb::training::search::{improve, journal};
 use clap::Args;
 use indicatif::ProgressBar;
@@ -21,7 +21,7 @@ use crate::cli::arguments::{Json, Resume, Seed};
 use crate::cli::output::{check_writable, message, write_json};
 use crate::cli::scene::CastArgs;
 use crate::cli::values::{number, whole};
-use crate::cli::{Verdict, progress, work};
+use crate::cli::{Ending, progress, work};
 
 /// Search for better numbers of a controller: angles, durations, gains
 ///
@@ -76,7 +76,7 @@ pub(in crate::cli) struct SkillArgs {
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-struct Report<'a> {
+struct SkillReport<'a> {
     controller: &'a str,
     kind: &'a str,
     seed: u64,
@@ -92,7 +92,7 @@ struct Report<'a> {
 }
 
 impl SkillArgs {
-    pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(in crate::cli) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         let skills = skills(&self.cast)?;
         let skill = Skill::find(&skills, &self.controller)?;
         improve::check(skill)?;
@@ -111,7 +111,7 @@ impl SkillArgs {
                 "interrupted after {n} evaluations; --resume goes on"
             ));
         }
-        let report = Report {
+        let report = SkillReport {
             controller: skill.name(),
             kind: skill.kind(),
             seed: self.seed.value,
@@ -130,11 +130,11 @@ impl SkillArgs {
         } else {
             print(out, &report)?;
         }
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 
-    fn search(&self, skill: &Skill, file: &Path, stop: &AtomicBool) -> Result<Found> {
-        let plan = Plan {
+    fn search(&self, skill: &Skill, file: &Path, stop: &AtomicBool) -> Result<FoundNumbers> {
+        let plan = SearchPlan {
             evaluations: self.evaluations as usize,
             starts: self.starts as usize,
             seed: self.seed.value,
@@ -178,10 +178,10 @@ impl Bars {
         }
     }
 
-    fn show(&mut self, stage: Stage) {
+    fn show(&mut self, stage: SearchStage) {
         let found = match stage {
-            Stage::Gathering(found) => return self.bar.set_position(found as u64),
-            Stage::Searching(found) => found,
+            SearchStage::Gathering(found) => return self.bar.set_position(found as u64),
+            SearchStage::Searching(found) => found,
         };
         let (n, of) = (found.evaluations, found.starts);
         let Score { cost, reached } = found.best;
@@ -206,9 +206,9 @@ impl Bars {
     }
 }
 
-fn print(out: &mut dyn Write, r: &Report<'_>) -> std::io::Result<()> {
+fn print(out: &mut dyn Write, r: &SkillReport<'_>) -> std::io::Result<()> {
     let (n, starts) = (r.evaluations, r.starts);
-    let Report {
+    let SkillReport {
         controller, seed, ..
     } = r;
     writeln!(

@@ -1,7 +1,7 @@
 //! How a character falls: which way, what touches first, how fast its head is when it touches, how
 //! hard head and trunk hit.
 //!
-//! sensors and events of every step → [`Fall`]s, and when it stands again.
+//! sensors and events of every step → [`FallRecord`]s, and when it stands again.
 
 use aplomb::framework::character::Model;
 use aplomb::framework::events::EventKind;
@@ -9,14 +9,14 @@ use aplomb::framework::math::hypot;
 use aplomb::framework::sensing::Sensors;
 use aplomb::training::exercise::Impact;
 
-use super::rising::Rising;
+use super::rising::RisingRecord;
 
 /// m/s; a slower centre of mass falls the way it was pushed.
 const SLOW: f64 = 0.05;
 
 /// Parts of the body that a fall may land on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum FallPart {
     Foot,
     Knee,
     Hand,
@@ -37,7 +37,7 @@ const RESTED: f64 = 0.1;
 /// One fall, from the first touch of anything but feet until the character lies still: a head that
 /// touches later, when it rises, was not hit by the fall.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Fall {
+pub(super) struct FallRecord {
     /// Whether it went forward.
     pub(super) forward: bool,
     /// When each part first touched, s.
@@ -59,67 +59,73 @@ pub(super) struct HeadHit {
     pub(super) force: f64,
 }
 
-impl Fall {
+impl FallRecord {
     /// None if the head touched nothing.
     pub(super) fn head_hit(&self) -> Option<HeadHit> {
         let force = self.head_force;
         self.head_speed.map(|speed| HeadHit { speed, force })
     }
 
-    fn when(&self, part: Part) -> f64 {
+    fn when(&self, part: FallPart) -> f64 {
         self.touched[part as usize].unwrap_or(f64::INFINITY)
     }
 
     /// Forward: the hands touched before head and trunk, or neither of these did. Backward: hands
     /// or seat touched before the head, or the head did not.
     pub(super) fn broken_well(&self) -> bool {
-        let hands = self.when(Part::Hand);
+        let hands = self.when(FallPart::Hand);
         let (good, bad) = if self.forward {
-            (hands, self.when(Part::Head).min(self.when(Part::Trunk)))
+            (
+                hands,
+                self.when(FallPart::Head).min(self.when(FallPart::Trunk)),
+            )
         } else {
-            (hands.min(self.when(Part::Seat)), self.when(Part::Head))
+            (
+                hands.min(self.when(FallPart::Seat)),
+                self.when(FallPart::Head),
+            )
         };
         bad.is_infinite() || good < bad
     }
 }
 
 /// Which part of the body a link is.
-fn part(model: &Model, link: usize) -> Part {
+fn part(model: &Model, link: usize) -> FallPart {
     if model.is_foot(link) {
-        Part::Foot
+        FallPart::Foot
     } else if model.is_shank(link) {
-        Part::Knee
+        FallPart::Knee
     } else if model.is_hand(link) {
-        Part::Hand
+        FallPart::Hand
     } else if link == model.head {
-        Part::Head
+        FallPart::Head
     } else if model.is_seat(link) {
-        Part::Seat
+        FallPart::Seat
     } else if link == model.trunk {
-        Part::Trunk
+        FallPart::Trunk
     } else {
-        Part::Other
+        FallPart::Other
     }
 }
 
 /// Watches one trial.
 #[derive(Debug)]
-pub(super) struct Watch {
-    parts: Vec<Part>,
+pub(super) struct FallWatch {
+    parts: Vec<FallPart>,
     pushed: f64,
     /// Whether a touch of the ground counts as a fall: not before a heap has stood up.
     upright: bool,
     /// m/s, in the step before.
     head_speed: f64,
     impact: Impact,
-    falling: Option<Fall>,
+    falling: Option<FallRecord>,
     /// Since when it has been at rest, s.
     resting: Option<f64>,
-    falls: Vec<Fall>,
-    rising: Rising,
+    falls: Vec<FallRecord>,
+    rising: RisingRecord,
 }
 
-impl Watch {
+impl FallWatch {
     /// Of a character that is pushed with an impulse (N·s) or begins on the floor, in steps of
     /// `dt` s.
     pub(super) fn new(model: &Model, pushed: f64, fallen: bool, dt: f64) -> Self {
@@ -132,7 +138,7 @@ impl Watch {
             falling: None,
             resting: None,
             falls: Vec::new(),
-            rising: Rising::new(fallen),
+            rising: RisingRecord::new(fallen),
         }
     }
 
@@ -147,7 +153,7 @@ impl Watch {
             let way = if v.abs() < SLOW { self.pushed } else { v };
             self.upright = false;
             self.rising.fell(now);
-            self.falling = Some(Fall {
+            self.falling = Some(FallRecord {
                 forward: way > 0.0,
                 touched: [None; PARTS],
                 head_speed: None,
@@ -169,7 +175,7 @@ impl Watch {
             for (part, contact) in self.parts.iter().zip(&now.contacts) {
                 if contact.touching {
                     fall.touched[*part as usize].get_or_insert(now.time);
-                    if *part == Part::Head {
+                    if *part == FallPart::Head {
                         fall.head_speed.get_or_insert(self.head_speed);
                     }
                 }
@@ -181,8 +187,8 @@ impl Watch {
         self.head_speed = hypot(v[0], v[1]);
     }
 
-    /// All falls, the last one possibly not over, and the time to standing of [`Rising`].
-    pub(super) fn finish(mut self) -> (Vec<Fall>, Option<f64>) {
+    /// All falls, the last one possibly not over, and the time to standing of [`RisingRecord`].
+    pub(super) fn finish(mut self) -> (Vec<FallRecord>, Option<f64>) {
         self.falls.extend(self.falling);
         (self.falls, self.rising.took())
     }
@@ -195,9 +201,9 @@ mod tests {
     use aplomb::framework::scenario::Scenario;
 
     /// Steps with what touches in each.
-    fn fall(forward: bool, touches: &[&[&str]]) -> Fall {
+    fn fall(forward: bool, touches: &[&[&str]]) -> FallRecord {
         let model = Model::load("humanoid").unwrap();
-        let mut watch = Watch::new(&model, if forward { 1.0 } else { -1.0 }, false, 1e-3);
+        let mut watch = FallWatch::new(&model, if forward { 1.0 } else { -1.0 }, false, 1e-3);
         let mut now = Sensors::new(&model, 9.81);
         for (i, links) in touches.iter().enumerate() {
             now.time = i as f64;
@@ -246,7 +252,7 @@ mod tests {
     fn a_heap_has_not_fallen_before_it_has_stood_up() {
         let scenario = Scenario::standing("humanoid", 2.0);
         let mut run = Simulation::new(&scenario, &aplomb::controllers::registry()).unwrap();
-        let mut watch = Watch::new(run.sensors(0).model.as_ref(), 0.0, true, 1e-3);
+        let mut watch = FallWatch::new(run.sensors(0).model.as_ref(), 0.0, true, 1e-3);
         watch.observe(run.sensors(0), [EventKind::Fell].iter());
         assert!(watch.falling.is_none());
         for _ in 0..1500 {

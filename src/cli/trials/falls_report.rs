@@ -1,13 +1,13 @@
 //! The falls of trials, as JSON and as text.
 //!
-//! [`Falls`] both ways → medians.
+//! [`FallTally`] both ways → medians.
 
 use std::io::Write;
 
 use anyhow::Result;
 use serde::Serialize;
 
-use super::tally::Falls;
+use super::tally::FallTally;
 use crate::cli::statistics::{median, percentile};
 
 /// Names are a contract with other people's scripts.
@@ -17,12 +17,12 @@ pub(super) struct FallsReport {
     backward: Backward,
     /// Of both.
     #[serde(flatten)]
-    impact: Impact,
+    impact: ImpactReport,
 }
 
 /// What head and trunk had to take in falls.
 #[derive(Debug, Serialize)]
-struct Impact {
+struct ImpactReport {
     /// Falls in which the head touched anything before the character lay still.
     head_hits: u64,
     /// Of the head just before it touched, in the falls in which it did, m/s.
@@ -41,7 +41,7 @@ struct Forward {
     count: u64,
     hands_first: u64,
     #[serde(flatten)]
-    impact: Impact,
+    impact: ImpactReport,
 }
 
 /// Falls backward.
@@ -50,11 +50,11 @@ struct Backward {
     count: u64,
     hands_or_seat_first: u64,
     #[serde(flatten)]
-    impact: Impact,
+    impact: ImpactReport,
 }
 
-impl Impact {
-    fn new(falls: &Falls) -> Self {
+impl ImpactReport {
+    fn new(falls: &FallTally) -> Self {
         let hits = &falls.head_hits;
         let speeds: Vec<f64> = hits.iter().map(|h| h.speed).collect();
         let forces: Vec<f64> = hits.iter().map(|h| h.force).collect();
@@ -94,21 +94,21 @@ impl Impact {
 
 impl FallsReport {
     /// Of the falls of all trials.
-    pub(super) fn new(forward: &Falls, backward: &Falls) -> Self {
+    pub(super) fn new(forward: &FallTally, backward: &FallTally) -> Self {
         let mut both = forward.clone();
         both.merge(backward.clone());
         Self {
             forward: Forward {
                 count: forward.count,
                 hands_first: forward.broken_well,
-                impact: Impact::new(forward),
+                impact: ImpactReport::new(forward),
             },
             backward: Backward {
                 count: backward.count,
                 hands_or_seat_first: backward.broken_well,
-                impact: Impact::new(backward),
+                impact: ImpactReport::new(backward),
             },
-            impact: Impact::new(&both),
+            impact: ImpactReport::new(&both),
         }
     }
 

@@ -22,10 +22,10 @@ use super::json::RunJson;
 use super::output::{check_writable, message, write_recording};
 use super::scene::{SceneArgs, record};
 use super::values::{STRONGEST, duration, number, whole};
-use super::{Verdict, progress, timeline, work};
+use super::{Ending, progress, timeline, work};
 use crate::cli::arguments::Json;
-use plan::{Plan, Trial};
-use report::Report;
+use plan::{FinishedTrial, TrialPlan};
+use report::TrialsReport;
 use tally::Tally;
 
 /// The most trials of one call.
@@ -94,7 +94,7 @@ pub(super) struct TrialsArgs {
 }
 
 impl TrialsArgs {
-    pub(super) fn run(self, out: &mut dyn Write) -> Result<Verdict> {
+    pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         let plan = self.plan()?;
         if let Some(index) = self.only {
             return self.one(&plan, index, out);
@@ -113,23 +113,23 @@ impl TrialsArgs {
         } else {
             report.print(out, &plan)?;
         }
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 
     /// What `--json` prints of all trials, which run in the threads of the caller.
-    pub(super) fn measure(&self, stop: &AtomicBool) -> Result<Report> {
+    pub(super) fn measure(&self, stop: &AtomicBool) -> Result<TrialsReport> {
         self.sum_up(&self.plan()?, stop)
     }
 
-    fn sum_up(&self, plan: &Plan, stop: &AtomicBool) -> Result<Report> {
+    fn sum_up(&self, plan: &TrialPlan, stop: &AtomicBool) -> Result<TrialsReport> {
         let begun = Instant::now();
         let tally = self.all(plan, stop)?;
         let wall_s = begun.elapsed().as_secs_f64();
         let interrupted = tally.count() < self.count;
-        Ok(Report::new(plan, tally, wall_s, interrupted))
+        Ok(TrialsReport::new(plan, tally, wall_s, interrupted))
     }
 
-    fn plan(&self) -> Result<Plan> {
+    fn plan(&self) -> Result<TrialPlan> {
         let registry = aplomb::controllers::registry();
         let mut scenario = self.scene.load(self.duration, &registry)?;
         scenario.duration = self.duration;
@@ -148,16 +148,16 @@ impl TrialsArgs {
             );
         }
         self.record.as_deref().map_or(Ok(()), check_writable)?;
-        let disturbance = plan::Disturbance {
+        let disturbance = plan::TrialStart {
             impulse: [self.min_impulse, max_impulse],
             max_angle: self.max_angle,
             fallen: self.fallen,
             vary: self.vary,
         };
-        Plan::new(scenario, registry, disturbance)
+        TrialPlan::new(scenario, registry, disturbance)
     }
 
-    fn all(&self, plan: &Plan, stop: &AtomicBool) -> Result<Tally> {
+    fn all(&self, plan: &TrialPlan, stop: &AtomicBool) -> Result<Tally> {
         let bar = progress::bar(self.count, "trials");
         let take = |mut tally: Tally, index: u64| {
             if let Some(trial) = plan.run(index, stop)? {
@@ -175,7 +175,7 @@ impl TrialsArgs {
     }
 
     /// One trial alone: its timeline, or its JSON within the JSON of all trials.
-    fn one(&self, plan: &Plan, index: u64, out: &mut dyn Write) -> Result<Verdict> {
+    fn one(&self, plan: &TrialPlan, index: u64, out: &mut dyn Write) -> Result<Ending> {
         let begun = Instant::now();
         let mut staged = plan.stage(index)?;
         if self.record.is_some() {
@@ -183,7 +183,7 @@ impl TrialsArgs {
         }
         let never = AtomicBool::new(false);
         let trial = plan.watch(&mut staged, &never);
-        let trial: Trial = trial.ok_or_else(|| anyhow!("the trial was interrupted"))?;
+        let trial: FinishedTrial = trial.ok_or_else(|| anyhow!("the trial was interrupted"))?;
         let wall_s = begun.elapsed().as_secs_f64();
         let plan::Staged {
             scenario,
@@ -196,7 +196,7 @@ impl TrialsArgs {
             let mut tally = Tally::new(plan.pool());
             tally.take(&trial);
             let run = RunJson::new(&simulation, &scenario, wall_s, false);
-            Report::new(plan, tally, wall_s, false).write_json(&mut told, Some(run))?;
+            TrialsReport::new(plan, tally, wall_s, false).write_json(&mut told, Some(run))?;
         } else {
             write!(told, "trial {index}: {}", trial.disturbance())?;
             if self.vary {
@@ -214,6 +214,6 @@ impl TrialsArgs {
             write_recording(&recording, self.record.as_deref(), None)?;
         }
         out.write_all(&told)?;
-        Ok(Verdict::Done)
+        Ok(Ending::Done)
     }
 }

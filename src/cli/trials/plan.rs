@@ -1,6 +1,6 @@
 //! What the trials have in common, and one trial: draw, simulate, watch.
 //!
-//! seed, index → disturbance → [`Simulation`] → [`Trial`].
+//! seed, index → disturbance → [`Simulation`] → [`FinishedTrial`].
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,7 +15,7 @@ use aplomb::training::situations::Worlds;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::falls::{Fall, Watch};
+use super::falls::{FallRecord, FallWatch};
 
 /// s; when trials are pushed.
 const PUSH_AT: f64 = 1.0;
@@ -28,7 +28,7 @@ const PATIENCE: u64 = 500;
 
 /// How trials are disturbed.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Disturbance {
+pub(super) struct TrialStart {
     /// Weakest and strongest push either way, N·s.
     pub(super) impulse: [f64; 2],
     /// Largest offset of a joint, rad.
@@ -41,10 +41,10 @@ pub(super) struct Disturbance {
 
 /// What the trials have in common.
 #[derive(Debug)]
-pub(super) struct Plan {
+pub(super) struct TrialPlan {
     /// Before it is disturbed.
     pub(super) scenario: Scenario,
-    pub(super) disturbance: Disturbance,
+    pub(super) disturbance: TrialStart,
     registry: Registry,
     model: Arc<Model>,
     pool: Vec<String>,
@@ -62,7 +62,7 @@ pub(super) struct Staged {
 
 /// What became of one trial.
 #[derive(Debug)]
-pub(super) struct Trial {
+pub(super) struct FinishedTrial {
     pub(super) index: u64,
     /// Link and horizontal impulse, N·s.
     pub(super) push: Option<(String, f64)>,
@@ -74,13 +74,13 @@ pub(super) struct Trial {
     pub(super) time_to_stand: Option<f64>,
     /// Of the first character.
     pub(super) events: Vec<Event>,
-    pub(super) falls: Vec<Fall>,
+    pub(super) falls: Vec<FallRecord>,
     pub(super) steps: u64,
     /// [`Simulation::digest`].
     pub(super) digest: String,
 }
 
-impl Trial {
+impl FinishedTrial {
     /// In words.
     pub(super) fn disturbance(&self) -> String {
         match &self.push {
@@ -90,12 +90,12 @@ impl Trial {
     }
 }
 
-impl Plan {
+impl TrialPlan {
     /// Also builds one simulation, so that bad input shows before the trials begin.
     pub(super) fn new(
         scenario: Scenario,
         registry: Registry,
-        disturbance: Disturbance,
+        disturbance: TrialStart,
     ) -> Result<Self> {
         let simulation = Simulation::new(&scenario, &registry)?;
         let model = Arc::clone(simulation.world().characters()[0].body.model());
@@ -137,7 +137,7 @@ impl Plan {
                 character: 0,
             });
         }
-        let Disturbance {
+        let TrialStart {
             max_angle,
             fallen,
             vary,
@@ -195,7 +195,7 @@ impl Plan {
     }
 
     /// Runs trial `index`; none if it was stopped.
-    pub(super) fn run(&self, index: u64, stop: &AtomicBool) -> Result<Option<Trial>> {
+    pub(super) fn run(&self, index: u64, stop: &AtomicBool) -> Result<Option<FinishedTrial>> {
         if stop.load(Ordering::Relaxed) {
             return Ok(None);
         }
@@ -203,12 +203,12 @@ impl Plan {
     }
 
     /// Runs a trial that is ready; none if it was stopped.
-    pub(super) fn watch(&self, staged: &mut Staged, stop: &AtomicBool) -> Option<Trial> {
+    pub(super) fn watch(&self, staged: &mut Staged, stop: &AtomicBool) -> Option<FinishedTrial> {
         let simulation = &mut staged.simulation;
         let push = staged.push.clone();
         let steps = (staged.scenario.duration / self.dt()).round() as u64;
         let pushed = push.as_ref().map_or(0.0, |p| p.1);
-        let mut watch = Watch::new(&self.model, pushed, self.disturbance.fallen, self.dt());
+        let mut watch = FallWatch::new(&self.model, pushed, self.disturbance.fallen, self.dt());
         let mut seen = simulation.events().len();
         for step in 0..steps {
             if step.is_multiple_of(PATIENCE) && stop.load(Ordering::Relaxed) {
@@ -223,7 +223,7 @@ impl Plan {
         let outcome = simulation.outcome(0);
         let (falls, time_to_stand) = watch.finish();
         let of_first = |e: &&Event| e.character == 0 && !matches!(e.kind, EventKind::Push { .. });
-        Some(Trial {
+        Some(FinishedTrial {
             index: staged.index,
             push,
             standing: outcome.standing,
@@ -247,15 +247,15 @@ impl Plan {
 mod tests {
     use super::*;
 
-    fn plan(fallen: bool, vary: bool) -> Plan {
+    fn plan(fallen: bool, vary: bool) -> TrialPlan {
         let scenario = Scenario::standing("humanoid", 1.0);
-        let disturbance = Disturbance {
+        let disturbance = TrialStart {
             impulse: [10.0, 60.0],
             max_angle: if fallen { 0.0 } else { 0.1 },
             fallen,
             vary,
         };
-        Plan::new(scenario, aplomb::controllers::registry(), disturbance).unwrap()
+        TrialPlan::new(scenario, aplomb::controllers::registry(), disturbance).unwrap()
     }
 
     #[test]

@@ -10,8 +10,8 @@ use crate::cli::json::RunJson;
 use crate::cli::output::write_json;
 
 use super::falls_report::FallsReport;
-use super::plan::Plan;
-use super::tally::{Activations, Failure, Tally};
+use super::plan::TrialPlan;
+use super::tally::{Activations, FailedTrial, Tally};
 use crate::cli::statistics::{median, percentile, wilson};
 
 /// So many failures are told in text.
@@ -19,7 +19,7 @@ const FAILURES_TOLD: usize = 10;
 
 /// Names are a contract with other people's scripts.
 #[derive(Debug, Serialize)]
-pub(in crate::cli) struct Report {
+pub(in crate::cli) struct TrialsReport {
     pub(super) count: u64,
     standing: u64,
     fraction: f64,
@@ -40,7 +40,7 @@ pub(in crate::cli) struct Report {
     switches_per_minute: f64,
     short_activations: u64,
     falls: FallsReport,
-    failures: Vec<Failure>,
+    failures: Vec<FailedTrial>,
 }
 
 /// From the first fall, or of heaps from the start, to standing, s.
@@ -56,7 +56,7 @@ struct TimeToStand {
 #[derive(Debug, Serialize)]
 struct WithRun<'a> {
     #[serde(flatten)]
-    report: &'a Report,
+    report: &'a TrialsReport,
     run: RunJson,
 }
 
@@ -72,9 +72,9 @@ impl TimeToStand {
     }
 }
 
-impl Report {
+impl TrialsReport {
     /// Of a tally that took `wall_s` s.
-    pub(super) fn new(plan: &Plan, mut tally: Tally, wall_s: f64, interrupted: bool) -> Self {
+    pub(super) fn new(plan: &TrialPlan, mut tally: Tally, wall_s: f64, interrupted: bool) -> Self {
         let count = tally.count();
         let simulated_s = tally.steps as f64 * plan.dt();
         Self {
@@ -108,7 +108,7 @@ impl Report {
     }
 
     /// As text.
-    pub(super) fn print(&self, out: &mut dyn Write, plan: &Plan) -> Result<()> {
+    pub(super) fn print(&self, out: &mut dyn Write, plan: &TrialPlan) -> Result<()> {
         let d = &plan.disturbance;
         let scenario = &plan.scenario;
         write!(

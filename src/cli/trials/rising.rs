@@ -8,7 +8,7 @@ use aplomb::framework::sensing::Sensors;
 /// Watches one trial. Asks what is sensed, not the run's events: a heap that comes down on its feet
 /// and rises from there has never fallen, so that the run does not note that it stood.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rising {
+pub(super) struct RisingRecord {
     /// s
     down_since: Option<f64>,
     /// Without a break, s.
@@ -17,7 +17,7 @@ pub(super) struct Rising {
     took: Option<f64>,
 }
 
-impl Rising {
+impl RisingRecord {
     /// Of a character that begins upright, or as a heap on the floor: the heap's time counts from
     /// the start.
     pub(super) fn new(fallen: bool) -> Self {
@@ -66,7 +66,7 @@ mod tests {
 
     /// Standing from the first to before the second time of each pair, s; else in the air. Falls
     /// at `falls`.
-    fn rising(fallen: bool, stands: &[[f64; 2]], falls: &[f64]) -> Rising {
+    fn rising(fallen: bool, stands: &[[f64; 2]], falls: &[f64]) -> RisingRecord {
         let model = Model::load("humanoid").unwrap();
         let scenario = Scenario::standing("humanoid", 1.0);
         let registry = aplomb::controllers::registry();
@@ -75,7 +75,7 @@ mod tests {
         let mut up = run.sensors(0).clone();
         assert!(up.stands());
         let mut down = Sensors::new(&model, 9.81);
-        let mut rising = Rising::new(fallen);
+        let mut rising = RisingRecord::new(fallen);
         for step in 0..600 {
             let time = 0.01 * f64::from(step);
             (up.time, down.time) = (time, time);
@@ -90,7 +90,7 @@ mod tests {
         rising
     }
 
-    fn assert_took(rising: Rising, seconds: f64) {
+    fn assert_took(rising: RisingRecord, seconds: f64) {
         let took = rising.took().unwrap();
         assert!((took - seconds).abs() < 1e-9, "{took}");
     }
@@ -126,7 +126,7 @@ mod tests {
     fn it_is_up_as_soon_as_a_run_calls_it_standing() {
         let scenario = Scenario::standing("humanoid", 2.0);
         let mut run = Simulation::new(&scenario, &aplomb::controllers::registry()).unwrap();
-        let mut rising = Rising::new(true);
+        let mut rising = RisingRecord::new(true);
         let mut proved = 0;
         for _ in 0..1500 {
             run.step();

@@ -1,6 +1,6 @@
 //! Sums over trials that do not depend on the order in which the trials finish.
 //!
-//! [`Trial`] → [`Tally`]; tallies of several threads → one.
+//! [`FinishedTrial`] → [`Tally`]; tallies of several threads → one.
 
 use std::collections::BTreeMap;
 
@@ -8,8 +8,8 @@ use aplomb::framework::events::{EventKind, Reason, Role};
 use serde::Serialize;
 use xxhash_rust::xxh3::xxh3_128;
 
-use super::falls::{Fall, HeadHit};
-use super::plan::Trial;
+use super::falls::{FallRecord, HeadHit};
+use super::plan::FinishedTrial;
 
 /// s; shorter activations are told, unless a failure or a command ended them.
 const SHORT: f64 = 0.05;
@@ -24,7 +24,7 @@ pub(super) struct Activations {
 
 /// A trial that does not stand at its end.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Failure {
+pub(super) struct FailedTrial {
     pub(super) index: u64,
     pub(super) link: Option<String>,
     pub(super) impulse: Option<f64>,
@@ -35,13 +35,13 @@ pub(super) struct Failure {
 
 /// Falls in one direction.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Falls {
+pub(super) struct FallTally {
     pub(super) count: u64,
-    /// See [`Fall::broken_well`].
+    /// See [`FallRecord::broken_well`].
     pub(super) broken_well: u64,
     /// Of the falls in which the head touched.
     pub(super) head_hits: Vec<HeadHit>,
-    /// N, see [`Fall::trunk_force`].
+    /// N, see [`FallRecord::trunk_force`].
     pub(super) trunk_forces: Vec<f64>,
 }
 
@@ -59,11 +59,11 @@ pub(super) struct Tally {
     pub(super) switches: u64,
     pub(super) short_activations: u64,
     pub(super) controllers: BTreeMap<String, Activations>,
-    failures: Vec<Failure>,
+    failures: Vec<FailedTrial>,
     /// Sum of the hashes of the trials' indices and digests.
     digest: u128,
-    pub(super) forward: Falls,
-    pub(super) backward: Falls,
+    pub(super) forward: FallTally,
+    pub(super) backward: FallTally,
 }
 
 impl Tally {
@@ -88,13 +88,13 @@ impl Tally {
     }
 
     /// In the order of their indices.
-    pub(super) fn failures(&mut self) -> &[Failure] {
+    pub(super) fn failures(&mut self) -> &[FailedTrial] {
         self.failures.sort_by_key(|f| f.index);
         &self.failures
     }
 
     /// Takes in a trial.
-    pub(super) fn take(&mut self, trial: &Trial) {
+    pub(super) fn take(&mut self, trial: &FinishedTrial) {
         self.count += 1;
         let hash = xxh3_128(format!("{} {}", trial.index, trial.digest).as_bytes());
         self.digest = self.digest.wrapping_add(hash);
@@ -106,7 +106,7 @@ impl Tally {
             self.of(fall.forward).take(fall);
         }
         if !trial.standing {
-            self.failures.push(Failure {
+            self.failures.push(FailedTrial {
                 index: trial.index,
                 link: trial.push.as_ref().map(|p| p.0.clone()),
                 impulse: trial.push.as_ref().map(|p| p.1),
@@ -117,7 +117,7 @@ impl Tally {
         self.take_switches(trial);
     }
 
-    fn of(&mut self, forward: bool) -> &mut Falls {
+    fn of(&mut self, forward: bool) -> &mut FallTally {
         if forward {
             &mut self.forward
         } else {
@@ -125,7 +125,7 @@ impl Tally {
         }
     }
 
-    fn take_switches(&mut self, trial: &Trial) {
+    fn take_switches(&mut self, trial: &FinishedTrial) {
         // Only one is active at a time.
         let mut since: Option<f64> = None;
         let mut stepped = false;
@@ -180,8 +180,8 @@ impl Tally {
     }
 }
 
-impl Falls {
-    fn take(&mut self, fall: &Fall) {
+impl FallTally {
+    fn take(&mut self, fall: &FallRecord) {
         self.count += 1;
         self.broken_well += u64::from(fall.broken_well());
         self.head_hits.extend(fall.head_hit());
@@ -202,7 +202,7 @@ mod tests {
     use super::*;
     use aplomb::framework::events::{Event, Unmet};
 
-    fn trial(index: u64, switches: &[(f64, &str, &str, Reason)]) -> Trial {
+    fn trial(index: u64, switches: &[(f64, &str, &str, Reason)]) -> FinishedTrial {
         let event = |(time, from, to, reason): &(f64, &str, &str, Reason)| Event {
             time: *time,
             character: 0,
@@ -217,7 +217,7 @@ mod tests {
                 bids: Vec::new(),
             },
         };
-        Trial {
+        FinishedTrial {
             index,
             push: None,
             standing: index.is_multiple_of(2),

@@ -1,6 +1,6 @@
 //! Figures of learned anticipation, as SVG (figures 1 to 3 and 5 to 7 of the 2017 paper).
 //!
-//! [`Learned`]: recordings without and with a trajectory, the course of its search → the centre of
+//! [`LearnedTrajectory`]: recordings without and with a trajectory, the course of its search → the centre of
 //! pressure, the trajectory, the convergence. [`Basis`] → its family, its components, the variance that
 //! they explain. Numbers that are not finite are left out.
 
@@ -41,7 +41,7 @@ pub struct Rollout<'a> {
 
 /// A trajectory that was learned for the first motion of a clip.
 #[derive(Debug, Clone, Copy)]
-pub struct Learned<'a> {
+pub struct LearnedTrajectory<'a> {
     /// The controller that moves.
     pub controller: &'a str,
     /// s of the recordings at which the motion begins.
@@ -63,7 +63,7 @@ pub struct Learned<'a> {
 ///
 /// # Errors
 /// An empty recording, phases out of order, an invalid trajectory, a course out of order.
-pub fn learned(learned: &Learned<'_>) -> Result<Vec<Drawing>> {
+pub fn learned(learned: &LearnedTrajectory<'_>) -> Result<Vec<Drawing>> {
     let [preparation, task, decay] = learned.phases;
     ensure!(
         learned.begin >= 0.0 && learned.begin.is_finite(),

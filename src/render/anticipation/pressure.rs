@@ -5,7 +5,7 @@ use svg::node::element::Group;
 
 use super::phases::{bar, bars, successor};
 use super::samples::Samples;
-use super::{Learned, Rollout};
+use super::{LearnedTrajectory, Rollout};
 use crate::render::chart::{Chart, Style, range};
 use crate::render::legend::Legend;
 use crate::render::style::{FORCE, INK, SUPPORT, document, px, rectangle, text};
@@ -24,7 +24,7 @@ const CORNER: [f64; 2] = [66.0, 30.0];
 
 /// # Errors
 /// Recordings that cannot be drawn.
-pub(super) fn figure(learned: &Learned<'_>) -> Result<String> {
+pub(super) fn figure(learned: &LearnedTrajectory<'_>) -> Result<String> {
     let rollouts = [
         ("without anticipation", learned.without),
         ("with anticipation", learned.with),

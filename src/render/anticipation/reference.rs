@@ -5,7 +5,7 @@ use anyhow::Result;
 use aplomb_controllers::kinds::cmrt::{Cmrt, Spline};
 use svg::node::element::Group;
 
-use super::Learned;
+use super::LearnedTrajectory;
 use super::phases::{shaded, successor};
 use super::samples::Samples;
 use crate::render::chart::{Chart, Style, range};
@@ -47,7 +47,7 @@ pub(super) fn knots(chart: &Chart, cmrt: &Cmrt, radius: f64, colour: &str) -> Gr
 
 /// # Errors
 /// A recording that cannot be drawn.
-pub(super) fn figure(learned: &Learned<'_>) -> Result<String> {
+pub(super) fn figure(learned: &LearnedTrajectory<'_>) -> Result<String> {
     let samples = Samples::new(learned, learned.with)?;
     let reference = curve(learned.cmrt);
     let heights = reference.iter().map(|p| p[1]);

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use aplomb_framework::run::{Moment, Trajectory};
 
-use super::{Learned, Rollout};
+use super::{LearnedTrajectory, Rollout};
 use crate::render::drawable;
 
 /// Steps by which the controller may be over before its motion is.
@@ -26,7 +26,7 @@ pub(super) struct Samples<'a> {
 impl<'a> Samples<'a> {
     /// # Errors
     /// A recording that cannot be drawn.
-    pub(super) fn new(learned: &Learned<'_>, rollout: Rollout<'a>) -> Result<Self> {
+    pub(super) fn new(learned: &LearnedTrajectory<'_>, rollout: Rollout<'a>) -> Result<Self> {
         let recording = rollout.recording;
         drawable(recording, 0)?;
         let dt = recording.header.dt;

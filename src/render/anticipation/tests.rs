@@ -22,7 +22,7 @@ const COURSE: [(usize, f64); 4] = [(1, 19.5), (11, 6.0), (21, 4.0), (31, 4.0)];
 /// A motion from 0.1 s on; the recording's controller is replaced at 1 s.
 fn drawn_with(
     recording: &Trajectory,
-    change: impl FnOnce(&mut Learned<'_>),
+    change: impl FnOnce(&mut LearnedTrajectory<'_>),
 ) -> Result<Vec<Drawing>> {
     let rollout = |objective| Rollout {
         recording,
@@ -30,7 +30,7 @@ fn drawn_with(
         cop_norm: 3.5,
     };
     let cmrt = cmrt(1.0);
-    let mut of = Learned {
+    let mut of = LearnedTrajectory {
         controller: "balance",
         begin: 0.1,
         phases: [0.8, 1.2, 1.8],
@@ -99,7 +99,7 @@ fn a_motion_has_curves() {
     assert_seen(&figures[2].svg, &[Sight::Curve("#0072b2", steps, 300.0)]);
 }
 
-fn drawn(recording: &Trajectory, change: impl FnOnce(&mut Learned<'_>)) -> Vec<Drawing> {
+fn drawn(recording: &Trajectory, change: impl FnOnce(&mut LearnedTrajectory<'_>)) -> Vec<Drawing> {
     checked(drawn_with(recording, change).unwrap())
 }
 
@@ -158,7 +158,8 @@ fn over_a_decade_the_objective_is_logarithmic() {
 #[test]
 fn what_is_no_motion_is_refused() {
     let run = recording(1500, |_, _| {});
-    let refused = |change: fn(&mut Learned<'_>)| drawn_with(&run, change).unwrap_err().to_string();
+    let refused =
+        |change: fn(&mut LearnedTrajectory<'_>)| drawn_with(&run, change).unwrap_err().to_string();
     assert!(refused(|of| of.phases = [1.0, 0.5, 2.0]).starts_with("phases"));
     assert!(refused(|of| of.phases[2] = f64::NAN).starts_with("phases"));
     assert!(refused(|of| of.begin = f64::INFINITY).starts_with("begin"));

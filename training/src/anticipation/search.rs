@@ -1,6 +1,6 @@
 //! CMA-ES for the trajectory of a clip (2017 paper, section 4.1).
 //!
-//! clip, encoding → candidates → objective → [`Found`]: the best trajectory, the course of the search.
+//! clip, encoding → candidates → objective → [`FoundTrajectory`]: the best trajectory, the course of the search.
 //! A journal keeps the scores of finished generations, so that a search that was ended in any way goes
 //! on to what it would have found.
 
@@ -35,12 +35,12 @@ const INVALID: f64 = 1e3;
 
 /// How to search.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Plan {
+pub struct TrajectoryPlan {
     /// How points stand for trajectories.
     pub encoding: Encoding,
     /// Ends with the generation that reaches this many evaluations.
     pub evaluations: usize,
-    /// Evaluations before slow convergence may end it; [`Plan::least`] by default.
+    /// Evaluations before slow convergence may end it; [`TrajectoryPlan::least`] by default.
     pub least: usize,
     /// Ends when the objective is below this.
     pub threshold: f64,
@@ -52,7 +52,7 @@ pub struct Plan {
     pub start: Option<Cmrt>,
 }
 
-impl Plan {
+impl TrajectoryPlan {
     /// Evaluations before slow convergence may end a search, as in the paper.
     #[must_use]
     pub fn least() -> usize {
@@ -71,7 +71,7 @@ pub struct Keep<'a> {
 
 /// What a search has found so far.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
+pub struct FoundTrajectory {
     /// Evaluations so far.
     pub evaluations: usize,
     /// The objective without a trajectory, averaged as that of the search.
@@ -93,10 +93,10 @@ pub struct Found {
 /// of another search.
 pub fn search(
     clip: &Clip,
-    plan: &Plan,
+    plan: &TrajectoryPlan,
     keep: Keep<'_>,
-    mut watch: impl FnMut(&Found) -> ControlFlow<()>,
-) -> Result<Found> {
+    mut watch: impl FnMut(&FoundTrajectory) -> ControlFlow<()>,
+) -> Result<FoundTrajectory> {
     let middle = || vec![0.5; plan.encoding.dimensions()];
     let known = plan.start.as_ref().and_then(|c| plan.encoding.point(c));
     let start = known.unwrap_or_else(middle);
@@ -121,7 +121,7 @@ pub fn search(
         evaluations: plan.evaluations,
         seed: plan.seed,
     };
-    let mut found = Found {
+    let mut found = FoundTrajectory {
         evaluations: 0,
         flat,
         objective: f64::INFINITY,
@@ -162,7 +162,7 @@ pub fn search(
 }
 
 /// The journal of this search: of this clip, its parameters, the encoding and the seed.
-fn open(clip: &Clip, plan: &Plan, keep: Keep<'_>, first: &Cmrt) -> Result<Journal> {
+fn open(clip: &Clip, plan: &TrajectoryPlan, keep: Keep<'_>, first: &Cmrt) -> Result<Journal> {
     let hashed = |text: String| format!("{:016x}", xxh3_64(text.as_bytes()));
     let header = vec![
         ("clip", hashed(format!("{:?}", clip.scenario))),

@@ -15,7 +15,7 @@ use aplomb_framework::run::Simulation;
 use rayon::prelude::*;
 
 use crate::exercise::skill::Skill;
-use crate::exercise::starts::{Source, Starts, Wanted, starts};
+use crate::exercise::starts::{StartSource, Starts, Wanted, starts};
 use crate::exercise::task::{Blows, Task};
 use crate::exercise::{falling, rising, standing, stepping};
 use crate::situations::disturbance::Disturbance;
@@ -121,7 +121,7 @@ enum Begun {
     /// From these situations.
     Runs(Starts),
     /// From standing under the controller that is judged, with these pushes.
-    Pushes(Vec<standing::Push>),
+    Pushes(Vec<standing::StandingPush>),
 }
 
 /// A task with its starts.
@@ -224,7 +224,7 @@ impl Exercise {
             }
             Begun::Pushes(pushes) => match supervisor.alone(&self.contract.name) {
                 Ok(alone) => {
-                    let one = |push: &standing::Push| push.judge(&self.model, &alone);
+                    let one = |push: &standing::StandingPush| push.judge(&self.model, &alone);
                     pushes.par_iter().map(one).collect()
                 }
                 Err(_) => return Score::WORST,
@@ -263,12 +263,12 @@ fn risen(
     mut watch: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Vec<Starts>> {
     let mut all = vec![Starts::default(); skills.len()];
-    let mut groups: Vec<(Source, Vec<usize>)> = Vec::new();
+    let mut groups: Vec<(StartSource, Vec<usize>)> = Vec::new();
     for (place, task) in tasks.iter().enumerate() {
         let Task::Rise { heaps, impulse, .. } = task else {
             continue;
         };
-        let source = Source {
+        let source = StartSource {
             worlds: drill.worlds,
             heaps: *heaps,
             impulse: *impulse,

@@ -19,7 +19,7 @@ const RECOVERED: f64 = 3.5;
 
 /// A push over 0.1 s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Push {
+pub struct StandingPush {
     /// Where it acts.
     pub site: Site,
     /// N·s, forward positive.
@@ -33,7 +33,7 @@ pub struct Push {
 /// So many pushes around the limits (N·s), one half forward, the other backward, in even steps, a
 /// little different in time and friction so that no single lucky run decides.
 #[must_use]
-pub fn pushes(forward: [f64; 2], backward: [f64; 2], count: usize) -> Vec<Push> {
+pub fn pushes(forward: [f64; 2], backward: [f64; 2], count: usize) -> Vec<StandingPush> {
     let mut all = Vec::with_capacity(count);
     let ways = [
         (1.0, forward, count.div_ceil(2)),
@@ -44,7 +44,7 @@ pub fn pushes(forward: [f64; 2], backward: [f64; 2], count: usize) -> Vec<Push> 
         for i in 0..count {
             let phase = [0.0, 0.0013, 0.0029, 0.0047][i % 4];
             let friction = [1.0, 1.0, 0.9, 1.1][i % 4];
-            all.push(Push {
+            all.push(StandingPush {
                 site: Site::Trunk,
                 impulse: sign * (low + step * i as f64),
                 at: 1.0 + phase,
@@ -55,7 +55,7 @@ pub fn pushes(forward: [f64; 2], backward: [f64; 2], count: usize) -> Vec<Push> 
     all
 }
 
-impl Push {
+impl StandingPush {
     /// A rollout at the moment at which the push begins: the character has stood until then under
     /// the supervisor.
     fn begin(&self, model: &Arc<Model>, supervisor: &Supervisor) -> Result<Simulation> {
@@ -109,7 +109,7 @@ impl Taken {
 ///
 /// # Errors
 /// A supervisor for another character.
-pub fn take(model: &Arc<Model>, supervisor: &Supervisor, push: Push) -> Result<Taken> {
+pub fn take(model: &Arc<Model>, supervisor: &Supervisor, push: StandingPush) -> Result<Taken> {
     let mut run = push.begin(model, supervisor)?;
     // The push acts from the next step on: this is how it stood before.
     let quiet = run.sensors(0).com_velocity[0].abs() < 0.05;
@@ -158,7 +158,7 @@ mod tests {
         let skill = shipped("balance");
         let alone = skill.supervisor.alone("balance").unwrap();
         let taken = |impulse| {
-            let push = Push {
+            let push = StandingPush {
                 site: Site::Trunk,
                 impulse,
                 at: 1.0,

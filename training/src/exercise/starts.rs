@@ -37,7 +37,7 @@ const OWN_PATIENCE: usize = 10;
 
 /// Where starts come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Source {
+pub struct StartSource {
     /// The worlds.
     pub worlds: Worlds,
     /// Part of the starts that begin as heaps; the others are pushed over.
@@ -77,7 +77,7 @@ pub struct Starts {
 /// # Errors
 /// A supervisor for another character.
 pub fn starts(
-    source: Source,
+    source: StartSource,
     count: usize,
     model: &Arc<Model>,
     wanted: &[Wanted],
@@ -188,7 +188,7 @@ fn search(
 
 /// A character that falls in a heap or is pushed over.
 fn heap_or_push(
-    source: Source,
+    source: StartSource,
     rng: &mut ChaCha8Rng,
     model: &Arc<Model>,
     before: &Supervisor,

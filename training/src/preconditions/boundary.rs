@@ -6,17 +6,17 @@ use aplomb_framework::control::Boundary;
 use aplomb_framework::control::boundary::{BoundaryFigures, VERSION};
 use aplomb_framework::input::Result;
 
-use crate::preconditions::learning::learned::Learned;
+use crate::preconditions::learning::learned::LearnedPrecondition;
 use crate::preconditions::report::Report;
 
 const PROVENANCE: &str =
-    "Learned by `aplomb train preconditions` from rollouts with random disturbances.";
+    "LearnedPrecondition by `aplomb train preconditions` from rollouts with random disturbances.";
 
 /// The boundary of a controller of the character with this digest.
 ///
 /// # Errors
 /// A feature that the framework does not know.
-pub fn boundary(learned: &Learned, report: &Report, digest: &str) -> Result<Boundary> {
+pub fn boundary(learned: &LearnedPrecondition, report: &Report, digest: &str) -> Result<Boundary> {
     let svm = &report.svm;
     let figures = BoundaryFigures {
         rollouts: report.train,

@@ -33,14 +33,14 @@ const TITLE: &str = "aplomb-rollouts-1";
 /// Which of the two sets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Part {
+pub enum SetPart {
     /// What is learned from.
     Train,
     /// What is judged by.
     Test,
 }
 
-impl Part {
+impl SetPart {
     /// As in file names.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -58,7 +58,7 @@ impl Part {
 /// Where a dataset comes from. Written beside it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Header {
+pub struct SetHeader {
     /// The controller.
     pub controller: String,
     /// Its character.
@@ -70,7 +70,7 @@ pub struct Header {
     /// Hash of the disturbance's text.
     pub disturbance_digest: String,
     /// Which set.
-    pub part: Part,
+    pub part: SetPart,
     /// Seed of all streams.
     pub seed: u64,
     /// Samples.
@@ -97,7 +97,7 @@ pub struct Files {
 impl Files {
     /// By their names.
     #[must_use]
-    pub fn of(folder: &Path, controller: &str, part: Part) -> Self {
+    pub fn of(folder: &Path, controller: &str, part: SetPart) -> Self {
         let name = |rest: &str| folder.join(format!("{controller}.{}.{rest}", part.name()));
         Self {
             csv: name("csv"),
@@ -109,11 +109,11 @@ impl Files {
 
 /// A set that is to be gathered.
 #[derive(Debug)]
-pub struct Plan<'a> {
+pub struct SetPlan<'a> {
     /// What is rolled out.
     pub trial: &'a Trial,
     /// What is known of the set beforehand.
-    pub header: Header,
+    pub header: SetHeader,
     /// Where it is written.
     pub files: Files,
     /// Whether to go on with what is there.
@@ -133,9 +133,15 @@ pub struct Gathered {
 
 /// The header of a set that is not finished.
 #[must_use]
-pub fn header(skill: &Skill, disturbance: &Source, part: Part, seed: u64, count: usize) -> Header {
+pub fn header(
+    skill: &Skill,
+    disturbance: &Source,
+    part: SetPart,
+    seed: u64,
+    count: usize,
+) -> SetHeader {
     let own = xxh3_64(whole_text(&skill.file).as_bytes()) ^ skill.surroundings.rotate_left(1);
-    Header {
+    SetHeader {
         controller: skill.name().to_owned(),
         character: skill.model.name.clone(),
         character_digest: skill.model.digest(),
@@ -157,7 +163,7 @@ pub fn header(skill: &Skill, disturbance: &Source, part: Part, seed: u64, count:
 /// A partial file of another set; files that cannot be read or written; a feature that is not a
 /// number where the controller took over.
 pub fn gather(
-    plan: &Plan<'_>,
+    plan: &SetPlan<'_>,
     mut watch: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Option<Gathered>> {
     let first = first_line(&plan.header);
@@ -193,7 +199,7 @@ pub fn gather(
 }
 
 /// The line that tells a partial file's set.
-fn first_line(h: &Header) -> String {
+fn first_line(h: &SetHeader) -> String {
     format!(
         "{TITLE} controller={} character={} character_digest={} controller_digest={} \
          disturbance_digest={} part={} seed={} count={} version={}",
@@ -210,8 +216,8 @@ fn first_line(h: &Header) -> String {
 }
 
 /// One rollout, whose features all have a value.
-fn sample(plan: &Plan<'_>, index: usize) -> Result<Sample> {
-    let Header {
+fn sample(plan: &SetPlan<'_>, index: usize) -> Result<Sample> {
+    let SetHeader {
         controller,
         part,
         seed,
@@ -255,7 +261,7 @@ fn parsed(line: &str, columns: usize) -> Option<Sample> {
 }
 
 /// The partial file without its unfinished end, and its samples.
-fn resumed(plan: &Plan<'_>, first: &str) -> Result<(File, Vec<Sample>)> {
+fn resumed(plan: &SetPlan<'_>, first: &str) -> Result<(File, Vec<Sample>)> {
     let path = &plan.files.partial;
     let (text, end) = growing::whole_lines(path, LARGEST)?;
     let mut lines = text.lines();
@@ -285,7 +291,7 @@ fn resumed(plan: &Plan<'_>, first: &str) -> Result<(File, Vec<Sample>)> {
 }
 
 /// Writes the dataset and its header, and removes the partial file.
-fn finish(plan: &Plan<'_>, samples: Vec<Sample>, found: usize) -> Result<Gathered> {
+fn finish(plan: &SetPlan<'_>, samples: Vec<Sample>, found: usize) -> Result<Gathered> {
     let features = plan.trial.features();
     let fresh = samples.len() - found;
     let manual: Vec<bool> = samples.iter().map(|s| s.manual).collect();
@@ -295,7 +301,7 @@ fn finish(plan: &Plan<'_>, samples: Vec<Sample>, found: usize) -> Result<Gathere
         rows: samples.into_iter().map(|s| s.features).collect(),
     };
     data.write(&plan.files.csv)?;
-    let header = Header {
+    let header = SetHeader {
         csv_digest: csv_digest(&plan.files.csv)?,
         manual: manual.iter().map(|m| if *m { '1' } else { '0' }).collect(),
         ..plan.header.clone()
@@ -320,14 +326,14 @@ fn csv_digest(path: &Path) -> Result<String> {
 }
 
 /// The set that is asked for, if it is there and whole.
-fn finished(plan: &Plan<'_>) -> Result<Option<Gathered>> {
+fn finished(plan: &SetPlan<'_>) -> Result<Option<Gathered>> {
     let Files { csv, header, .. } = &plan.files;
     if !header.exists() || !csv.exists() {
         return Ok(None);
     }
     let source = Source::read(header)?;
-    let known: Header = source.parse()?;
-    let asked = Header {
+    let known: SetHeader = source.parse()?;
+    let asked = SetHeader {
         csv_digest: known.csv_digest.clone(),
         manual: known.manual.clone(),
         ..plan.header.clone()

@@ -37,7 +37,7 @@ pub const KINDS: [&str; 5] = [
 
 /// How to search.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plan<'a> {
+pub struct SearchPlan<'a> {
     /// Ends with the generation that reaches this many evaluations.
     pub evaluations: usize,
     /// Starts of the exercise.
@@ -54,7 +54,7 @@ pub struct Plan<'a> {
 
 /// What a search has found so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Found {
+pub struct FoundNumbers {
     /// Evaluations so far.
     pub evaluations: usize,
     /// Starts of the exercise: what was asked for, or fewer.
@@ -67,11 +67,11 @@ pub struct Found {
 
 /// What a search is at.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Stage {
+pub enum SearchStage {
     /// It has made so many starts.
     Gathering(usize),
     /// It has finished the first evaluation or a generation.
-    Searching(Found),
+    Searching(FoundNumbers),
 }
 
 /// Searches from the numbers of the skill's file. `watch` may end it at any stage. None if it was
@@ -82,9 +82,9 @@ pub enum Stage {
 /// journal that is missing or of another search.
 pub fn improve(
     skill: &Skill,
-    plan: Plan<'_>,
-    watch: impl FnMut(Stage) -> ControlFlow<()>,
-) -> Result<Option<Found>> {
+    plan: SearchPlan<'_>,
+    watch: impl FnMut(SearchStage) -> ControlFlow<()>,
+) -> Result<Option<FoundNumbers>> {
     check(skill)?;
     match skill.kind() {
         PoseSpec::KIND => search::<PoseSpec>(skill, plan, watch),
@@ -109,9 +109,9 @@ pub fn check(skill: &Skill) -> Result<()> {
 
 fn search<T: Tunable>(
     skill: &Skill,
-    plan: Plan<'_>,
-    mut watch: impl FnMut(Stage) -> ControlFlow<()>,
-) -> Result<Option<Found>> {
+    plan: SearchPlan<'_>,
+    mut watch: impl FnMut(SearchStage) -> ControlFlow<()>,
+) -> Result<Option<FoundNumbers>> {
     let (model, contract) = (&skill.model, &skill.contract);
     let file = skill.file.parameters::<T>(skill.name())?;
     let task = Task::of(skill)?;
@@ -131,7 +131,7 @@ fn search<T: Tunable>(
     };
     let mut ended = false;
     let exercise = Exercise::new(&skill, Drill::training(plan.starts, plan.seed), |found| {
-        let next = watch(Stage::Gathering(found));
+        let next = watch(SearchStage::Gathering(found));
         ended = next.is_break();
         next
     })?;
@@ -172,7 +172,7 @@ fn search<T: Tunable>(
     let cost = |point: &[f64]| journal.score(point, || measure(point)).cost;
     minimise(&start, search, cost, |evaluations, best: &Best| {
         written = journal.finish_generation();
-        let so_far = Found {
+        let so_far = FoundNumbers {
             evaluations,
             starts: exercise.starts(),
             start: first,
@@ -193,7 +193,7 @@ fn search<T: Tunable>(
         if written.is_err() {
             return ControlFlow::Break(());
         }
-        watch(Stage::Searching(so_far))
+        watch(SearchStage::Searching(so_far))
     });
     written.map(|()| found)
 }
@@ -203,7 +203,7 @@ fn open<T: Tunable>(
     skill: &Skill,
     task: &Task,
     file: T,
-    plan: Plan<'_>,
+    plan: SearchPlan<'_>,
     search: Search,
 ) -> Result<(Journal, T)> {
     let header = vec![
@@ -242,7 +242,7 @@ fn line_in<T: Tunable>(source: &Source, task: &Task) -> Result<String> {
 }
 
 /// Written over the controller.
-fn comment(task: &Task, plan: &Plan<'_>, found: &Found) -> String {
+fn comment(task: &Task, plan: &SearchPlan<'_>, found: &FoundNumbers) -> String {
     format!(
         "Optimised by CMA-ES over {}, seed {}, {} evaluations.",
         task.starts_in_words(found.starts),

@@ -26,7 +26,7 @@ const LARGEST: u64 = 1 << 28;
 const TITLE: &str = "aplomb-journal-1";
 
 /// Which search it is: names and values without spaces.
-pub type Header = Vec<(&'static str, String)>;
+pub type JournalHeader = Vec<(&'static str, String)>;
 
 /// A journal that is being written.
 #[derive(Debug)]
@@ -56,7 +56,7 @@ impl Journal {
     ///
     /// # Errors
     /// [`Error::Write`].
-    pub fn begin(path: &Path, header: &Header, base: &str) -> Result<Self> {
+    pub fn begin(path: &Path, header: &JournalHeader, base: &str) -> Result<Self> {
         let text = format!("{}\n{base}\n", first_line(header));
         Ok(Self::new(
             path,
@@ -69,7 +69,7 @@ impl Journal {
     ///
     /// # Errors
     /// [`Error::Read`] if there is none; [`Error::Invalid`] if it is of another search, or is none.
-    pub fn resume(path: &Path, header: &Header) -> Result<(Self, String)> {
+    pub fn resume(path: &Path, header: &JournalHeader) -> Result<(Self, String)> {
         let (text, end) = growing::whole_lines(path, LARGEST)?;
         let mut lines = text.lines();
         check(path, lines.next().unwrap_or_default(), header)?;
@@ -145,7 +145,7 @@ impl Journal {
     }
 }
 
-fn first_line(header: &Header) -> String {
+fn first_line(header: &JournalHeader) -> String {
     let pairs = header
         .iter()
         .map(|(name, value)| format!(" {name}={value}"));
@@ -153,7 +153,7 @@ fn first_line(header: &Header) -> String {
 }
 
 /// Refuses a first line that is not this header's.
-fn check(path: &Path, line: &str, header: &Header) -> Result<()> {
+fn check(path: &Path, line: &str, header: &JournalHeader) -> Result<()> {
     let place = path.display().to_string();
     let mut words = line.split(' ');
     if words.next() != Some(TITLE) {
@@ -193,7 +193,7 @@ fn hash(point: &[f64]) -> u64 {
 mod tests {
     use super::*;
 
-    fn header(seed: u64) -> Header {
+    fn header(seed: u64) -> JournalHeader {
         vec![
             ("controller", "rise".to_owned()),
             ("seed", seed.to_string()),

@@ -30,7 +30,7 @@ const STEPS: f64 = 10_000.0;
 const ACCEPTED: &str = "a list of numbers, or 'ROWS x WIDTH crc32:CHECKSUM DATA' as `aplomb train preconditions` writes it";
 
 /// A row of what is packed.
-trait Row: Sized {
+trait PackedRow: Sized {
     /// Bytes of a number.
     const BYTES: usize;
 
@@ -41,7 +41,7 @@ trait Row: Sized {
 }
 
 /// A support vector.
-impl Row for Vec<f64> {
+impl PackedRow for Vec<f64> {
     const BYTES: usize = 4;
 
     fn words(&self) -> Option<Vec<u64>> {
@@ -64,7 +64,7 @@ impl Row for Vec<f64> {
 }
 
 /// A weight.
-impl Row for f64 {
+impl PackedRow for f64 {
     const BYTES: usize = 8;
 
     fn words(&self) -> Option<Vec<u64>> {
@@ -83,7 +83,7 @@ fn checksum(bytes: &[u8]) -> u32 {
 }
 
 /// None if there is nothing to pack, or it would not come back bit for bit.
-fn pack<R: Row>(rows: &[R]) -> Option<String> {
+fn pack<R: PackedRow>(rows: &[R]) -> Option<String> {
     let words: Vec<Vec<u64>> = rows.iter().map(R::words).collect::<Option<_>>()?;
     let width = words.first()?.len();
     if width == 0 || words.iter().any(|row| row.len() != width) {
@@ -103,7 +103,7 @@ fn pack<R: Row>(rows: &[R]) -> Option<String> {
 }
 
 /// What is wrong with the text, and what is accepted.
-fn unpack<R: Row>(text: &str) -> Result<Vec<R>, String> {
+fn unpack<R: PackedRow>(text: &str) -> Result<Vec<R>, String> {
     let parts: Vec<&str> = text.split_whitespace().collect();
     let [rows, "x", width, crc, data] = parts[..] else {
         return Err(format!(
@@ -159,7 +159,10 @@ fn unpack<R: Row>(text: &str) -> Result<Vec<R>, String> {
     Ok((0..rows).map(row).collect())
 }
 
-fn serialize<R: Row + Serialize, S: Serializer>(rows: &[R], to: S) -> Result<S::Ok, S::Error> {
+fn serialize<R: PackedRow + Serialize, S: Serializer>(
+    rows: &[R],
+    to: S,
+) -> Result<S::Ok, S::Error> {
     match pack(rows) {
         Some(text) => to.serialize_str(&text),
         None => rows.serialize(to),
@@ -169,7 +172,7 @@ fn serialize<R: Row + Serialize, S: Serializer>(rows: &[R], to: S) -> Result<S::
 /// Packed or a plain list.
 struct Either<R>(PhantomData<R>);
 
-impl<'de, R: Row + Deserialize<'de>> Visitor<'de> for Either<R> {
+impl<'de, R: PackedRow + Deserialize<'de>> Visitor<'de> for Either<R> {
     type Value = Vec<R>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -21,7 +21,7 @@ const WITHIN: f64 = 0.034;
 
 /// What `aplomb train basis --json` tells.
 #[derive(Debug, Deserialize)]
-struct Basis {
+struct BasisFigures {
     values: Vec<f64>,
     components: usize,
     explained: Vec<f64>,
@@ -29,12 +29,12 @@ struct Basis {
 
 /// What `aplomb train cmrt --json` tells.
 #[derive(Debug, Deserialize)]
-struct Search {
+struct SearchFigures {
     evaluations: usize,
     course: Vec<(usize, f64)>,
 }
 
-impl Search {
+impl SearchFigures {
     fn best(&self) -> f64 {
         self.course
             .last()
@@ -61,7 +61,7 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
     let seed = work.settings.seed;
     let (count, evaluations, least) = work.size((3, 12, 1), (7, 3000, 200));
     let file = format!("{FOLDER}/push_dominoes.{count}.{seed}.basis.ron");
-    let basis: Basis = work.command(&format!(
+    let basis: BasisFigures = work.command(&format!(
         "aplomb train basis push_dominoes --over mass=33..153 --count {count} --components 3 \
          --evaluations {evaluations} --least {least} --seed {seed} --out {file}"
     ))?;
@@ -76,7 +76,7 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
     let (evaluations, least) = work.size((20, 1), (3000, 100));
     let mut rows = Vec::new();
     for mass in masses {
-        let mut search = |name: &str, more: &str| -> Result<Search> {
+        let mut search = |name: &str, more: &str| -> Result<SearchFigures> {
             work.command(&format!(
                 "aplomb train cmrt push_dominoes --set mass={mass} --warm --evaluations {evaluations} \
                  --least {least} --seed {seed} --out {FOLDER}/push.{mass}.{name}.ron{more}"
@@ -85,7 +85,7 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
         let full = search("full", "")?;
         let reduced = search("reduced", &format!(" --basis {file}"))?;
         let goal = full.best() * (1.0 + WITHIN);
-        let until = |s: &Search| s.until(goal).map_or("never".to_owned(), |n| n.to_string());
+        let until = |s: &SearchFigures| s.until(goal).map_or("never".to_owned(), |n| n.to_string());
         rows.push(vec![
             format!("{mass} kg"),
             full.evaluations.to_string(),

@@ -16,16 +16,16 @@ pub(super) const STUDY: Study = Study {
 
 /// What `aplomb clips --json` tells of a clip.
 #[derive(Debug, Deserialize)]
-pub(super) struct Clip {
+pub(super) struct ClipFigures {
     clip: String,
     character: String,
-    flat: Judged,
-    pub(super) learned: Option<Judged>,
+    flat: JudgedFigures,
+    pub(super) learned: Option<JudgedFigures>,
 }
 
 /// How a clip went without or with a trajectory.
 #[derive(Debug, Deserialize)]
-pub(super) struct Judged {
+pub(super) struct JudgedFigures {
     pub(super) succeeds: bool,
     pub(super) successes: u64,
     starts: u64,
@@ -33,7 +33,7 @@ pub(super) struct Judged {
     pub(super) cop_norm: f64,
 }
 
-impl Judged {
+impl JudgedFigures {
     /// `18 of 20`.
     pub(super) fn told(&self) -> String {
         format!("{} of {}", self.successes, self.starts)
@@ -57,14 +57,15 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
     let names = work.size(vec!["fast_bend", "catch_ball"], all);
     let mut rows = Vec::new();
     for name in names {
-        let found: [Clip; 1] = work.command(&format!("aplomb clips {name} --seed {seed}"))?;
+        let found: [ClipFigures; 1] =
+            work.command(&format!("aplomb clips {name} --seed {seed}"))?;
         let [clip] = found;
         let with = clip.learned.as_ref();
         rows.push(vec![
             format!("`{}`", clip.clip.trim_start_matches("clips/")),
             clip.character,
             clip.flat.told(),
-            with.map_or("–".to_owned(), Judged::told),
+            with.map_or("–".to_owned(), JudgedFigures::told),
             format!("{:.2}", clip.flat.objective),
             decimals(with.map(|j| j.objective), 2),
             format!("{:.2}", clip.flat.cop_norm),

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 
-use super::trials::{Trials, Way, pushed};
+use super::trials::{Trials, WayFigures, pushed};
 use crate::cli::reproduce::page::{Page, decimals, percent};
 use crate::cli::reproduce::study::Study;
 use crate::cli::reproduce::work::Work;
@@ -54,11 +54,14 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
         ("backward", &skilled.falls.backward),
     ];
     let told = ways.map(|(way, w)| format!("{} of {} {way}", w.head_hits, w.count));
-    page.highlight("Falls of these pushes that hit the head", told.join(", "));
+    page.highlight(
+        "FallFigures of these pushes that hit the head",
+        told.join(", "),
+    );
     Ok(page)
 }
 
-fn row(name: &str, way: &Way) -> Vec<String> {
+fn row(name: &str, way: &WayFigures) -> Vec<String> {
     let [low, high] = wilson(way.head_hits, way.count).map(percent);
     vec![
         name.to_owned(),

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 
-use super::clips::Clip;
+use super::clips::ClipFigures;
 use crate::cli::clips::load;
 use crate::cli::reproduce::page::Page;
 use crate::cli::reproduce::study::Study;
@@ -31,7 +31,7 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
     let [mut good, mut bad] = [Vec::new(), Vec::new()];
     for i in 0..=((high - low) / step).round() as u32 {
         let duration = (1e6 * (low + step * f64::from(i))).round() / 1e6;
-        let found: [Clip; 1] = work.command(&format!(
+        let found: [ClipFigures; 1] = work.command(&format!(
             "aplomb clips fast_bend --set duration={duration} --seed {seed}"
         ))?;
         let [clip] = found;

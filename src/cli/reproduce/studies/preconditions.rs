@@ -22,7 +22,7 @@ const FOLDER: &str = "out/reproduce/preconditions";
 
 /// What `aplomb train preconditions --json` tells of a controller.
 #[derive(Debug, Deserialize)]
-struct Learned {
+struct LearnedFigures {
     controller: String,
     train: usize,
     test: usize,
@@ -87,7 +87,7 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
     let names = work.size(vec!["balance".to_owned(), "fall".to_owned()], all.collect());
     let mut rows = Vec::new();
     for name in names {
-        let found: [Learned; 1] = work.command(&format!(
+        let found: [LearnedFigures; 1] = work.command(&format!(
             "aplomb train preconditions {name} --samples {samples} --test {test} --seed {seed} --out {FOLDER}"
         ))?;
         let [learned] = found;

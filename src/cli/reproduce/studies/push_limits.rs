@@ -25,7 +25,7 @@ const AT: f64 = 1.0;
 
 /// How one push was taken.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-struct Taken {
+struct TakenPush {
     /// N·s, forward positive.
     impulse: f64,
     fell: bool,
@@ -55,7 +55,7 @@ impl Sweep {
         (1..=(most / step).round() as u32).map(move |i| sign * step * f64::from(i))
     }
 
-    fn taken(&self, work: &mut Work<'_>) -> Result<Vec<Taken>> {
+    fn taken(&self, work: &mut Work<'_>) -> Result<Vec<TakenPush>> {
         let line = |impulse: &str| format!("aplomb run --push {AT}:torso:{impulse} --duration 12");
         let first: Vec<String> = self.impulses().take(2).map(|i| i.to_string()).collect();
         let sign = if self.forward { "" } else { "-" };
@@ -68,14 +68,14 @@ impl Sweep {
         work.part(&all, |stop: &AtomicBool| {
             let one = |i: f64| Ok(taken(i, &command::value(&line(&i.to_string()), stop)?));
             let impulses: Vec<f64> = self.impulses().collect();
-            let all: Result<Vec<Taken>> = impulses.into_par_iter().map(one).collect();
+            let all: Result<Vec<TakenPush>> = impulses.into_par_iter().map(one).collect();
             Ok(to_value(all?)?)
         })
     }
 }
 
 /// What the JSON of a run tells of its push.
-fn taken(impulse: f64, run: &Value) -> Taken {
+fn taken(impulse: f64, run: &Value) -> TakenPush {
     let events = || run["events"].as_array().into_iter().flatten();
     let after = || events().filter(|e| e["kind"] == "switch" && e["t"].as_f64() > Some(AT));
     let settled = match after().next_back() {
@@ -83,7 +83,7 @@ fn taken(impulse: f64, run: &Value) -> Taken {
         Some(last) if last["role"] == "balance" => last["t"].as_f64().map(|t| t - AT),
         Some(_) => None,
     };
-    Taken {
+    TakenPush {
         impulse,
         fell: events().any(|e| e["kind"] == "fell"),
         stepped: after().any(|e| e["role"] == "step"),
@@ -93,7 +93,7 @@ fn taken(impulse: f64, run: &Value) -> Taken {
 }
 
 /// The strongest push before the first that does not hold, N·s, and whether one did not.
-fn last_before(pushes: &[Taken], holds: impl Fn(&Taken) -> bool) -> (f64, bool) {
+fn last_before(pushes: &[TakenPush], holds: impl Fn(&TakenPush) -> bool) -> (f64, bool) {
     let good = pushes.iter().take_while(|p| holds(p)).count();
     let last = good.checked_sub(1).map_or(0.0, |i| pushes[i].impulse.abs());
     (last, good < pushes.len())
@@ -129,7 +129,7 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
         };
         let weak = sweep(in_place).taken(work)?;
         let strong = sweep(stepping).taken(work)?;
-        let stays = |p: &Taken| p.standing && !p.fell && !p.stepped;
+        let stays = |p: &TakenPush| p.standing && !p.fell && !p.stepped;
         let place = told(last_before(&weak, stays));
         let steps = told(last_before(&strong, |p| p.standing && !p.fell));
         let way = if forward { "forward" } else { "backward" };
@@ -164,8 +164,8 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
 }
 
 /// How long it took to balance in place again.
-fn settling(way: &str, pushes: &[Taken]) -> Vec<String> {
-    let stood: Vec<&Taken> = pushes.iter().filter(|p| p.stepped && !p.fell).collect();
+fn settling(way: &str, pushes: &[TakenPush]) -> Vec<String> {
+    let stood: Vec<&TakenPush> = pushes.iter().filter(|p| p.stepped && !p.fell).collect();
     let times: Vec<f64> = stood.iter().filter_map(|p| p.settled).collect();
     vec![
         way.to_owned(),

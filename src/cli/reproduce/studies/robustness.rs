@@ -17,19 +17,19 @@ pub(super) const STUDY: Study = Study {
 /// What `aplomb robustness --json` tells.
 #[derive(Debug, Deserialize)]
 struct Robustness {
-    controllers: Vec<Skill>,
+    controllers: Vec<SkillFigures>,
 }
 
 #[derive(Debug, Deserialize)]
-struct Skill {
+struct SkillFigures {
     controller: String,
     goal: String,
-    cells: Vec<Cell>,
-    least: Option<Cell>,
+    cells: Vec<CellFigures>,
+    least: Option<CellFigures>,
 }
 
 #[derive(Debug, Deserialize)]
-struct Cell {
+struct CellFigures {
     friction: f64,
     torque: f64,
     starts: u64,
@@ -69,8 +69,8 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
     Ok(page)
 }
 
-fn row(skill: &Skill) -> Vec<String> {
-    let sum = |value: fn(&Cell) -> u64| skill.cells.iter().map(value).sum::<u64>();
+fn row(skill: &SkillFigures) -> Vec<String> {
+    let sum = |value: fn(&CellFigures) -> u64| skill.cells.iter().map(value).sum::<u64>();
     let starts = sum(|c| c.starts);
     let reached = sum(|c| c.reached) as f64 / starts.max(1) as f64;
     let least = skill.least.as_ref();

@@ -22,13 +22,13 @@ pub(super) struct Trials {
     interval95: [f64; 2],
     fell: u64,
     stepped: u64,
-    time_to_stand: Option<TimeToStand>,
+    time_to_stand: Option<StandingTimes>,
     short_activations: u64,
-    pub(super) falls: Falls,
+    pub(super) falls: FallFigures,
 }
 
 #[derive(Debug, Deserialize)]
-struct TimeToStand {
+struct StandingTimes {
     count: u64,
     median: f64,
     p90: f64,
@@ -37,14 +37,14 @@ struct TimeToStand {
 
 /// Falls both ways.
 #[derive(Debug, Deserialize)]
-pub(super) struct Falls {
-    pub(super) forward: Way,
-    pub(super) backward: Way,
+pub(super) struct FallFigures {
+    pub(super) forward: WayFigures,
+    pub(super) backward: WayFigures,
 }
 
 /// Falls one way.
 #[derive(Debug, Deserialize)]
-pub(super) struct Way {
+pub(super) struct WayFigures {
     pub(super) count: u64,
     #[serde(alias = "hands_or_seat_first")]
     pub(super) hands_first: u64,
@@ -107,7 +107,7 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
     );
     let row = |(name, t): &(&str, &Trials)| {
         let time =
-            |value: fn(&TimeToStand) -> f64| decimals(t.time_to_stand.as_ref().map(value), 2);
+            |value: fn(&StandingTimes) -> f64| decimals(t.time_to_stand.as_ref().map(value), 2);
         let count = t.time_to_stand.as_ref().map_or(0, |t| t.count);
         let times = [time(|t| t.median), time(|t| t.p90), time(|t| t.max)];
         [vec![(*name).to_owned(), count.to_string()], times.to_vec()].concat()

@@ -18,7 +18,7 @@ use std::ops::ControlFlow;
 use aplomb_framework::input::{Error, Result};
 
 use super::folds::{Folded, Measured};
-use super::machine::{Kernel, Settings};
+use super::machine::{Hyperparameters, Kernel};
 use super::training::checked;
 
 /// Only the first so many samples of the training set take part in the search, so that its time is bounded.
@@ -111,8 +111,8 @@ struct Grid<'a> {
 }
 
 impl Grid<'_> {
-    fn settings(&self, (kernel, gamma, c): Place) -> Settings {
-        Settings {
+    fn settings(&self, (kernel, gamma, c): Place) -> Hyperparameters {
+        Hyperparameters {
             kernel: self.kernels[kernel],
             c: COSTS[c],
             gamma: match self.kernels[kernel] {
@@ -147,7 +147,7 @@ fn search(
     while !planned.is_empty() {
         let total = measured.len() + planned.len();
         for batch in planned.chunks(BATCH) {
-            let settings: Vec<Settings> = batch.iter().map(|p| grid.settings(*p)).collect();
+            let settings: Vec<Hyperparameters> = batch.iter().map(|p| grid.settings(*p)).collect();
             measured.extend(batch.iter().copied().zip(folded.measure(&settings)));
             if watch(measured.len(), total).is_break() {
                 return None;
@@ -204,7 +204,7 @@ fn better(a: &Measured, b: &Measured) -> bool {
 }
 
 /// The best few, in the order of the grid.
-fn front(measured: &[Measured], count: usize) -> Vec<Settings> {
+fn front(measured: &[Measured], count: usize) -> Vec<Hyperparameters> {
     let mut ranked: Vec<(usize, &Measured)> = measured.iter().enumerate().collect();
     // Stable: of equal ones the earlier.
     ranked.sort_by(|a, b| b.1.balanced_accuracy.total_cmp(&a.1.balanced_accuracy));
@@ -220,7 +220,7 @@ mod tests {
 
     fn candidate(kernel: Kernel, c: f64, balanced_accuracy: f64) -> Measured {
         Measured {
-            settings: Settings {
+            settings: Hyperparameters {
                 kernel,
                 c,
                 gamma: 1.0,

@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::libsvm_solver;
-use super::machine::Settings;
+use super::machine::Hyperparameters;
 use super::metrics::metrics_of_scores;
 use super::training::prices;
 
@@ -22,7 +22,7 @@ const TOLERANCE: f64 = 1e-2;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
     /// Kernel, C and γ.
-    pub settings: Settings,
+    pub settings: Hyperparameters,
     /// Balanced accuracy over all held-out samples.
     pub balanced_accuracy: f64,
     /// Score of every sample that took part, by a machine that was not trained on it.
@@ -47,7 +47,7 @@ impl<'a> Folded<'a> {
     }
 
     /// Held-out scores of some candidates, every fold of each in parallel.
-    pub(super) fn measure(&self, candidates: &[Settings]) -> Vec<Measured> {
+    pub(super) fn measure(&self, candidates: &[Hyperparameters]) -> Vec<Measured> {
         let pairs: Vec<(usize, usize)> = (0..candidates.len())
             .flat_map(|candidate| (0..FOLDS).map(move |fold| (candidate, fold)))
             .collect();
@@ -72,7 +72,7 @@ impl<'a> Folded<'a> {
     }
 
     /// Scores of a fold's samples by a machine trained on the others.
-    fn scores(&self, settings: &Settings, fold: usize) -> Vec<(usize, f64)> {
+    fn scores(&self, settings: &Hyperparameters, fold: usize) -> Vec<(usize, f64)> {
         let (held_out, kept): (Vec<usize>, Vec<usize>) =
             (0..self.rows.len()).partition(|i| self.folds[*i] == fold);
         let rows: Vec<Vec<f64>> = kept.iter().map(|i| self.rows[*i].clone()).collect();

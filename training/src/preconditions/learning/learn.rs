@@ -1,6 +1,6 @@
 //! From samples to a pre-condition and to what is known of it.
 //!
-//! training set → choice of settings → machine → calibration → [`Learned`]; test set → [`Report`].
+//! training set → choice of settings → machine → calibration → [`LearnedPrecondition`]; test set → [`Report`].
 
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -12,8 +12,8 @@ use rayon::prelude::*;
 use super::calibration::calibrate;
 use super::cross_validation::choose;
 use super::dataset::Dataset;
-use super::learned::Learned;
-use super::machine::{Kernel, Settings};
+use super::learned::LearnedPrecondition;
+use super::machine::{Hyperparameters, Kernel};
 use super::metrics::{area, log_loss, metrics, metrics_of_scores, roc, thinned};
 use super::neighbour::Neighbours;
 use super::slice::slice;
@@ -72,7 +72,7 @@ pub enum Stage {
 
 /// How far it is: `done` of `of` are finished.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Progress {
+pub struct LearningProgress {
     /// What is being done.
     pub stage: Stage,
     /// Finished.
@@ -97,8 +97,8 @@ pub fn learn(
     test: &Dataset,
     manual: &[bool],
     settings: &LearnSettings,
-    mut watch: impl FnMut(Progress) -> ControlFlow<()>,
-) -> Result<Option<(Learned, Report)>> {
+    mut watch: impl FnMut(LearningProgress) -> ControlFlow<()>,
+) -> Result<Option<(LearnedPrecondition, Report)>> {
     split::check(train, test)?;
     if manual.len() != test.rows.len() {
         let accepted = format!("{}, one for each test sample", test.rows.len());
@@ -129,7 +129,7 @@ pub fn learn(
     let machine = train_machine(&rows, &train.success, &choice.settings)?;
     let train_s = clock.elapsed().as_secs_f64();
     let tested = scaling.apply_all(&test.rows);
-    let learned = Learned {
+    let learned = LearnedPrecondition {
         features: train.features.clone(),
         decision: machine.decision(),
         scaling,
@@ -192,18 +192,18 @@ pub fn learn(
     Ok(Some((learned, report)))
 }
 
-fn progress(stage: Stage, done: usize, of: usize) -> Progress {
-    Progress { stage, done, of }
+fn progress(stage: Stage, done: usize, of: usize) -> LearningProgress {
+    LearningProgress { stage, done, of }
 }
 
 /// Mean log-loss of the calibrated probabilities of the test set.
-fn loss(learned: &Learned, scores: &[f64], test: &Dataset) -> f64 {
+fn loss(learned: &LearnedPrecondition, scores: &[f64], test: &Dataset) -> f64 {
     let probability: Vec<f64> = scores.iter().map(|s| learned.probability(*s)).collect();
     log_loss(&probability, &test.success)
 }
 
 /// µs that a score takes, one after another.
-fn query_us(learned: &Learned, test: &Dataset) -> f64 {
+fn query_us(learned: &LearnedPrecondition, test: &Dataset) -> f64 {
     let timed = &test.rows[..test.rows.len().min(TIMED)];
     let clock = Instant::now();
     for row in timed {
@@ -231,7 +231,7 @@ fn neighbour_report(
 }
 
 /// Trained with the settings of the whole, standardised and measured like the whole.
-fn curve_point(train: &Dataset, test: &Dataset, settings: &Settings) -> Result<CurvePoint> {
+fn curve_point(train: &Dataset, test: &Dataset, settings: &Hyperparameters) -> Result<CurvePoint> {
     let scaling = Scaling::of(&train.rows);
     let (rows, tested) = (
         scaling.apply_all(&train.rows),

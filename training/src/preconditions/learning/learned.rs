@@ -6,7 +6,7 @@ use super::standardise::Scaling;
 
 /// Everything that a query needs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Learned {
+pub struct LearnedPrecondition {
     /// Names of the features, in the order of a row.
     pub features: Vec<String>,
     /// What brings a row to mean 0 and deviation 1.
@@ -17,7 +17,7 @@ pub struct Learned {
     pub calibration: Calibration,
 }
 
-impl Learned {
+impl LearnedPrecondition {
     /// Score of a row of features in their units: a success if it is at least 0.
     #[must_use]
     pub fn score(&self, row: &[f64]) -> f64 {

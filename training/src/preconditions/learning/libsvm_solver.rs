@@ -4,7 +4,7 @@
 use libsvm_rs::train::svm_train;
 use libsvm_rs::{KernelType, SvmNode, SvmParameter, SvmProblem, SvmType};
 
-use super::machine::{Kernel, Machine, Settings};
+use super::machine::{Hyperparameters, Kernel, Machine};
 
 /// MB of kernel rows that are kept.
 const CACHE: f64 = 200.0;
@@ -16,7 +16,7 @@ pub(super) const TOLERANCE: f64 = 1e-3;
 pub(super) fn solve(
     rows: &[Vec<f64>],
     labels: &[bool],
-    settings: &Settings,
+    settings: &Hyperparameters,
     [success, failure]: [f64; 2],
     tolerance: f64,
 ) -> Machine {

@@ -10,7 +10,7 @@ use linfa::traits::Fit;
 use linfa_svm::Svm;
 use ndarray::{Array1, Array2};
 
-use super::machine::{Kernel, Machine, Settings};
+use super::machine::{Hyperparameters, Kernel, Machine};
 
 /// Tolerance of the optimality conditions.
 const TOLERANCE: f64 = 1e-3;
@@ -21,7 +21,7 @@ const LEAST_WEIGHT: f64 = 100.0 * f64::EPSILON;
 pub(super) fn solve(
     rows: &[Vec<f64>],
     labels: &[bool],
-    settings: &Settings,
+    settings: &Hyperparameters,
     [success, failure]: [f64; 2],
 ) -> Result<Machine> {
     let refused = |reason: String| {

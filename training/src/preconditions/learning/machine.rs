@@ -1,6 +1,6 @@
 //! A support vector machine with balanced classes (Cortes & Vapnik 1995), whatever solves it.
 //!
-//! [`Settings`] → `training` → [`Machine`]; standardised row → score, a success if it is at least 0.
+//! [`Hyperparameters`] → `training` → [`Machine`]; standardised row → score, a success if it is at least 0.
 
 use std::fmt;
 use std::str::FromStr;
@@ -106,7 +106,7 @@ impl FromStr for Kernel {
 
 /// What a machine is trained with.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
+pub struct Hyperparameters {
     /// The kernel.
     pub kernel: Kernel,
     /// Price of a violated margin; that of a class with `k` of `n` samples is `c n / (2 k)`.
@@ -197,8 +197,8 @@ mod tests {
     use crate::preconditions::learning::training::{prices, train};
     use crate::preconditions::learning::{libsvm_solver, linfa_solver};
 
-    fn settings(kernel: Kernel) -> Settings {
-        Settings {
+    fn settings(kernel: Kernel) -> Hyperparameters {
+        Hyperparameters {
             kernel,
             c: 3.0,
             gamma: 0.4,
@@ -294,7 +294,7 @@ mod tests {
     #[test]
     fn unlearnable_sets_are_refused() {
         let good = rings(40, 2, 1);
-        let told = |rows: &[Vec<f64>], labels: &[bool], settings: &Settings| {
+        let told = |rows: &[Vec<f64>], labels: &[bool], settings: &Hyperparameters| {
             train(rows, labels, settings).unwrap_err().to_string()
         };
         let usual = settings(Kernel::Poly2);
@@ -303,7 +303,7 @@ mod tests {
         let mut rows = good.rows.clone();
         rows[7][1] = f64::NAN;
         assert!(told(&rows, &good.success, &usual).contains("not a finite number"));
-        let bad = Settings { c: 0.0, ..usual };
+        let bad = Hyperparameters { c: 0.0, ..usual };
         assert!(told(&good.rows, &good.success, &bad).contains("C is 0"));
         assert!(train(&good.rows, &good.success, &usual).is_ok());
     }

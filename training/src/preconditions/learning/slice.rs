@@ -3,7 +3,7 @@
 //! pre-condition, training set, test set → [`Slice`], if the features allow one.
 
 use super::dataset::Dataset;
-use super::learned::Learned;
+use super::learned::LearnedPrecondition;
 use crate::preconditions::report::Slice;
 
 /// Values along each axis.
@@ -18,7 +18,7 @@ const UP: &str = "com_velocity_x";
 /// The slice between the 1st and 99th percentile of both features, all others at their median, all of
 /// the training set; none if a feature is missing or does not vary. With the first 500 test samples.
 #[must_use]
-pub fn slice(learned: &Learned, train: &Dataset, test: &Dataset) -> Option<Slice> {
+pub fn slice(learned: &LearnedPrecondition, train: &Dataset, test: &Dataset) -> Option<Slice> {
     let column = |name: &str| learned.features.iter().position(|f| f == name);
     let across = ACROSS.into_iter().find_map(column)?;
     let up = column(UP)?;

@@ -1,10 +1,10 @@
 //! Training of a machine: the set is checked, classes are balanced, a library solves.
 //!
-//! standardised rows, labels, [`Settings`] → [`Machine`].
+//! standardised rows, labels, [`Hyperparameters`] → [`Machine`].
 
 use aplomb_framework::input::{Error, Result};
 
-use super::machine::{Machine, Settings};
+use super::machine::{Hyperparameters, Machine};
 use super::{libsvm_solver, linfa_solver};
 
 /// The most samples that linfa-svm is given: its dense kernel matrix and its time grow with the
@@ -16,7 +16,7 @@ pub const MOST_FOR_LINFA: usize = 5_000;
 /// # Errors
 /// [`Error::Invalid`] if the rows are not finite or differ in length, a class has fewer than two
 /// samples, C or γ is not positive, or the solver finds no finite machine.
-pub fn train(rows: &[Vec<f64>], labels: &[bool], settings: &Settings) -> Result<Machine> {
+pub fn train(rows: &[Vec<f64>], labels: &[bool], settings: &Hyperparameters) -> Result<Machine> {
     let counts = checked(rows, labels, settings)?;
     let prices = prices(settings.c, counts);
     let machine = if rows.len() <= MOST_FOR_LINFA {
@@ -42,7 +42,7 @@ pub(super) fn prices(c: f64, (successes, failures): (usize, usize)) -> [f64; 2] 
 pub(super) fn checked(
     rows: &[Vec<f64>],
     labels: &[bool],
-    settings: &Settings,
+    settings: &Hyperparameters,
 ) -> Result<(usize, usize)> {
     let place = "training set";
     for (field, value) in [("C", settings.c), ("gamma", settings.gamma)] {

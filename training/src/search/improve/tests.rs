@@ -3,8 +3,8 @@
 use super::*;
 use crate::exercise::skill::tests::{TUCK, skills};
 
-fn plan(out: &Path, evaluations: usize, resume: bool) -> Plan<'_> {
-    Plan {
+fn plan(out: &Path, evaluations: usize, resume: bool) -> SearchPlan<'_> {
+    SearchPlan {
         evaluations,
         starts: 2,
         seed: 3,
@@ -14,7 +14,7 @@ fn plan(out: &Path, evaluations: usize, resume: bool) -> Plan<'_> {
     }
 }
 
-fn tuck(plan: Plan<'_>) -> Result<Option<Found>> {
+fn tuck(plan: SearchPlan<'_>) -> Result<Option<FoundNumbers>> {
     let (_folder, skills) = skills(TUCK);
     let skill = Skill::find(&skills, "tuck").unwrap();
     improve(skill, plan, |_| ControlFlow::Continue(()))
@@ -56,7 +56,7 @@ fn a_search_that_was_ended_goes_on_to_the_same_file() {
     assert_eq!(read(), files);
     tuck(plan(&out, 26, true)).unwrap();
     assert!(read().1.starts_with(&files.1) && read().1.len() > files.1.len());
-    let other = Plan {
+    let other = SearchPlan {
         sigma: 0.1,
         ..plan(&out, 18, true)
     };

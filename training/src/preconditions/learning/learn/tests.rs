@@ -19,7 +19,7 @@ fn sets() -> (Dataset, Dataset) {
     (with_names(rings(300, 3, 1)), with_names(rings(700, 3, 2)))
 }
 
-fn learned(kernels: &str, threads: usize) -> (Learned, Report) {
+fn learned(kernels: &str, threads: usize) -> (LearnedPrecondition, Report) {
     let (train, test) = sets();
     let manual: Vec<bool> = test.rows.iter().map(|row| row[0].abs() < 1.0).collect();
     let settings = LearnSettings {
@@ -32,7 +32,9 @@ fn learned(kernels: &str, threads: usize) -> (Learned, Report) {
     pool.unwrap().install(work).unwrap().unwrap()
 }
 
-fn without_times((learned, mut report): (Learned, Report)) -> (Learned, Report) {
+fn without_times(
+    (learned, mut report): (LearnedPrecondition, Report),
+) -> (LearnedPrecondition, Report) {
     report.svm.train_s = 0.0;
     report.svm.choice_s = 0.0;
     report.svm.query_us = 0.0;
@@ -92,7 +94,7 @@ fn the_watch_may_end_the_work_at_every_step() {
         curve_sizes: vec![50],
     };
     for last in [Stage::Choice, Stage::Training, Stage::Testing, Stage::Curve] {
-        let watch = |progress: Progress| match progress.stage == last {
+        let watch = |progress: LearningProgress| match progress.stage == last {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         };
