@@ -24,6 +24,8 @@ pub(super) struct RunJson {
     #[serde(skip_serializing_if = "Option::is_none")]
     ends: Option<Vec<EndJson>>,
     peak_torque: BTreeMap<String, f64>,
+    /// Least and greatest pitch of the trunk, rad, leaning back positive.
+    trunk_pitch: [f64; 2],
     /// The first expectation of the scenario that was not met.
     unmet: Option<String>,
 }
@@ -139,6 +141,7 @@ impl RunJson {
             end: simulation.outcome(0).into(),
             ends: several.then(|| ends().collect()),
             peak_torque: joints.zip(peaks).collect(),
+            trunk_pitch: simulation.actors()[0].trunk_pitch,
             unmet: simulation.unmet(&scenario.expect),
         }
     }

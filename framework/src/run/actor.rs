@@ -19,6 +19,8 @@ pub struct Actor {
     pub torques: Vec<f64>,
     /// Largest torque of each joint so far, as applied, N·m.
     pub peak_torque: Vec<f64>,
+    /// Least and greatest pitch of the trunk so far, rad; not a number before the first step.
+    pub trunk_pitch: [f64; 2],
     /// Since when it has stood without a break, s.
     standing_since: Option<f64>,
     /// Whether it is down: something other than feet has supported it since it last stood.
@@ -49,6 +51,7 @@ impl Actor {
             supervisor,
             torques: vec![0.0; model.joint_count()],
             peak_torque: vec![0.0; model.joint_count()],
+            trunk_pitch: [f64::NAN; 2],
             standing_since: None,
             down: false,
             posture_seen: [None; 8],
@@ -65,6 +68,9 @@ impl Actor {
         {
             *peak = peak.max(torque.abs().min(joint.torque));
         }
+        let pitch = now.trunk_pitch();
+        let [least, greatest] = self.trunk_pitch;
+        self.trunk_pitch = [least.min(pitch), greatest.max(pitch)];
         self.posture_seen[now.posture as usize].get_or_insert(now.time);
         let time = now.time;
         let mut note = |kind| {
