@@ -4,6 +4,7 @@
 
 mod actor;
 mod export;
+mod judge;
 mod recording;
 mod schedule;
 mod simulation;

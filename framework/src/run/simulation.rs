@@ -14,7 +14,7 @@ use crate::run::schedule::{Input, Schedule, TimedInput};
 use crate::run::start::start_state;
 use crate::run::trajectory::{Cast, Digest, Header, Trajectory, push_character};
 use crate::run::watch::Watch;
-use crate::scenario::{Expectation, PUSH_DURATION, Scenario, ScheduledInput};
+use crate::scenario::{PUSH_DURATION, Scenario, ScheduledInput};
 use crate::sensing::Sensors;
 use crate::world::World;
 
@@ -61,14 +61,14 @@ pub fn tick<'a>(
 /// ```
 #[derive(Debug, Clone)]
 pub struct Simulation {
-    world: World,
-    actors: Vec<Actor>,
+    pub(super) world: World,
+    pub(super) actors: Vec<Actor>,
     schedule: Schedule,
-    events: Vec<Event>,
+    pub(super) events: Vec<Event>,
     digest: Digest,
     row: Vec<f32>,
     recording: Option<Trajectory>,
-    watches: Vec<Watch>,
+    pub(super) watches: Vec<Watch>,
 }
 
 impl Simulation {
@@ -377,56 +377,5 @@ impl Simulation {
     #[must_use]
     pub fn outcome(&self, character: usize) -> Outcome {
         self.actors[character].outcome(self.sensors(character))
-    }
-
-    /// Whether the run has met all of these expectations of its scenario.
-    #[must_use]
-    pub fn met(&self, expectations: &[Expectation]) -> bool {
-        self.unmet(expectations).is_none()
-    }
-
-    /// The first expectation of a scenario that the run did not meet, in words.
-    #[must_use]
-    pub fn unmet(&self, expectations: &[Expectation]) -> Option<String> {
-        expectations.iter().find_map(|e| self.unmet_one(e))
-    }
-
-    /// What the run has not shown of an expectation, in words; none if it has.
-    fn unmet_one(&self, expectation: &Expectation) -> Option<String> {
-        match expectation {
-            Expectation::Balanced { .. }
-            | Expectation::Holds { .. }
-            | Expectation::Reaches { .. }
-            | Expectation::Prop { .. } => {
-                match self.watches.iter().find(|w| w.expectation == *expectation) {
-                    Some(watch) => watch.unmet(&self.world),
-                    None => Some("an expectation that the run's own scenario has not".to_owned()),
-                }
-            }
-            Expectation::Standing { character } => (!self.outcome(*character).standing)
-                .then(|| format!("character {character} does not stand at the end")),
-            Expectation::Active {
-                name,
-                before,
-                character,
-            } => {
-                let became = |e: &Event| {
-                    matches!(&e.kind, EventKind::Switch { to, .. } if to == name)
-                        && e.character == *character
-                        && e.time <= *before
-                };
-                (!self.events.iter().any(became))
-                    .then(|| format!("'{name}' was not active before {before} s"))
-            }
-            Expectation::Posture {
-                posture,
-                before,
-                character,
-            } => {
-                let seen = self.actors[*character].first_in(*posture);
-                (seen.is_none_or(|t| t > *before))
-                    .then(|| format!("not {} before {before} s", posture.name()))
-            }
-        }
     }
 }
