@@ -44,7 +44,7 @@ pub enum Error {
     #[error("{}{field} is {problem}; accepted: {accepted}", before(place))]
     Invalid {
         /// `file:line:column` of the value; the origin alone of what is no file; empty until
-        /// [`Source::point`](crate::input::Source::point) has looked it up.
+        /// [`Source::locate`](crate::input::Source::locate) has looked it up.
         place: String,
         /// The way to the value: from the outermost value of the file once the place is known.
         field: FieldPath,

@@ -2,7 +2,7 @@
 //! and what is accepted. Nothing above this folder needs to know how a file is written.
 //!
 //! path → [`Source`] → a schema's values → [`check`] → nothing, or an [`Error`] with the
-//! [`FieldPath`] of what is refused → [`Source::point`] → the same with its line and column.
+//! [`FieldPath`] of what is refused → [`Source::locate`] → the same with its line and column.
 
 pub mod check;
 mod error;

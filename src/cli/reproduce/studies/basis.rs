@@ -51,7 +51,7 @@ impl SearchFigures {
 fn run(work: &mut Work<'_>) -> Result<Page> {
     let mut page = Page::new(
         "Basis",
-        "The principal components of trajectories learned for slabs of several masses (`push_dominoes`), and
+        "The principal components of trajectories learned for slabs of several masses (`push`), and
          searches for other masses in three of them instead of in all eight knots and control points. Both begin
          with the shipped trajectory, have the same seed and end when 100 evaluations bring less than 5 %. An
          objective is the best that the search has seen, averaged over two starts; least is best. It is one search
@@ -60,9 +60,9 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
     );
     let seed = work.settings.seed;
     let (count, evaluations, least) = work.size((3, 12, 1), (7, 3000, 200));
-    let file = format!("{FOLDER}/push_dominoes.{count}.{seed}.basis.ron");
+    let file = format!("{FOLDER}/push.{count}.{seed}.basis.ron");
     let basis: BasisFigures = work.command(&format!(
-        "aplomb train basis push_dominoes --over mass=33..153 --count {count} --components 3 \
+        "aplomb train basis push --over mass=33..153 --count {count} --components 3 \
          --evaluations {evaluations} --least {least} --seed {seed} --out {file}"
     ))?;
     let explained = basis.explained.iter().take(basis.components);
@@ -78,7 +78,7 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
     for mass in masses {
         let mut search = |name: &str, more: &str| -> Result<SearchFigures> {
             work.command(&format!(
-                "aplomb train cmrt push_dominoes --set mass={mass} --warm --evaluations {evaluations} \
+                "aplomb train cmrt push --set mass={mass} --warm --evaluations {evaluations} \
                  --least {least} --seed {seed} --out {FOLDER}/push.{mass}.{name}.ron{more}"
             ))
         };

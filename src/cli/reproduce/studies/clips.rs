@@ -54,7 +54,7 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
     );
     let seed = work.settings.seed;
     let all: Vec<&str> = aplomb::scenarios::clips().collect();
-    let names = work.size(vec!["fast_bend", "catch_ball"], all);
+    let names = work.size(vec!["bend", "catch"], all);
     let mut rows = Vec::new();
     for name in names {
         let found: [ClipFigures; 1] =

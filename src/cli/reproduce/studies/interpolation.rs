@@ -18,12 +18,12 @@ pub(super) const STUDY: Study = Study {
 fn run(work: &mut Work<'_>) -> Result<Page> {
     let mut page = Page::new(
         "Interpolation",
-        "The bend of the clip `fast_bend` at durations of its task for which no trajectory was learned: knots and
+        "The bend of the clip `bend` at durations of its task for which no trajectory was learned: knots and
          control points are interpolated between the two learned ones next to it. A duration succeeds if at least 18
          of 20 slightly different starts do (see `clips`). Nothing is searched anew here, so where it fails this does
          not tell whether a trajectory of its own would succeed.",
     );
-    let learned = load("fast_bend", &[], None)?.learned_values();
+    let learned = load("bend", &[], None)?.learned_values();
     let (seed, step) = (work.settings.seed, work.size(0.2, 0.05));
     let ends = learned.first().zip(learned.last());
     let [low, high] = ends.map_or([0.0; 2], |(low, high)| [*low, *high]);
@@ -32,7 +32,7 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
     for i in 0..=((high - low) / step).round() as u32 {
         let duration = (1e6 * (low + step * f64::from(i))).round() / 1e6;
         let found: [ClipFigures; 1] = work.command(&format!(
-            "aplomb clips fast_bend --set duration={duration} --seed {seed}"
+            "aplomb clips bend --set duration={duration} --seed {seed}"
         ))?;
         let [clip] = found;
         let Some(judged) = clip.learned else { continue };
