@@ -2,7 +2,7 @@
 
 use std::io::{Result, Write};
 
-use aplomb::framework::events::{Bid, Event, EventKind};
+use aplomb::framework::events::{Bid, Event, EventKind, Refusal};
 use aplomb::framework::run::Simulation;
 use aplomb::framework::scenario::Scenario;
 use aplomb::framework::sensing::Posture;
@@ -58,8 +58,12 @@ pub(super) fn print_event(out: &mut dyn Write, event: &Event, detail: Detail) ->
     Ok(())
 }
 
-/// A line for each controller of the pool: its bid, or why it bid 0.
+/// A line for each controller of the pool: its bid, or why it bid 0. Those that only wait for their
+/// command share one.
 pub(super) fn print_bids(out: &mut dyn Write, bids: &[Bid], indent: &str) -> Result<()> {
+    let (waiting, bids): (Vec<&Bid>, Vec<&Bid>) = bids
+        .iter()
+        .partition(|b| b.refusal == Some(Refusal::OnCommandOnly));
     let width = bids.iter().map(|b| b.controller.len()).max().unwrap_or(0);
     for bid in bids {
         let name = &bid.controller;
@@ -68,6 +72,10 @@ pub(super) fn print_bids(out: &mut dyn Write, bids: &[Bid], indent: &str) -> Res
             None => writeln!(out, "{indent}{name:width$}  bids {suitability}")?,
             Some(why) => writeln!(out, "{indent}{name:width$}  refuses: {why}")?,
         }
+    }
+    if !waiting.is_empty() {
+        let names: Vec<&str> = waiting.iter().map(|b| b.controller.as_str()).collect();
+        writeln!(out, "{indent}only on command: {}", names.join(", "))?;
     }
     Ok(())
 }

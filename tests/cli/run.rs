@@ -107,7 +107,7 @@ fn explaining_adds_every_bid() {
         .assert()
         .success()
         .stdout(predicate::str::is_match(" balance +bids 10\n").unwrap())
-        .stdout(predicate::str::is_match(" fall +refuses: com_height ").unwrap());
+        .stdout(predicate::str::is_match(" fall +refuses: not capture_front ").unwrap());
 }
 
 #[test]

@@ -298,9 +298,8 @@ impl PoseController {
             self.begin(now, key.then);
         } else if now.time - self.since >= key.duration * self.slowness {
             if let Some(refusal) = key.expects.first_failure(now) {
-                let mut unmet = refusal.expected();
-                unmet.clause = format!("after {}: {}", key.name, unmet.clause);
-                self.missed = Some(unmet);
+                let after = format!("after {}:", key.name);
+                self.missed = Some(refusal.expected().after(&after));
             }
             self.begin(now, key.next);
         }

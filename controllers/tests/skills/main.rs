@@ -31,8 +31,8 @@ fn shipped(name: &str) -> String {
 /// A controller from the text of its file, or the refusal of it.
 fn built(text: &str) -> Result<Box<dyn Controller>, String> {
     let source = Source::new("mine.ron", text);
-    let file: ControllerFile = source.parse().map_err(|e| e.to_string())?;
-    let built = registry().build(&source, &file, &humanoid());
+    let file = ControllerFile::parse(source).map_err(|e| e.to_string())?;
+    let built = registry().build(&file, &humanoid());
     built.map_err(|e| e.to_string())
 }
 

@@ -74,10 +74,7 @@ fn built(states: &str, conditions: &str) -> Result<(), String> {
         r#"(kind: "pose", contract: (name: "x", weight: 1, precondition: Always),
             spec: (states: [{states}], conditions: {{{conditions}}}))"#
     );
-    let source = Source::new("x.ron", text);
-    let file = source.parse().map_err(|e| e.to_string())?;
-    let built = aplomb_controllers::registry().build(&source, &file, &humanoid());
-    built.map(drop).map_err(|e| e.to_string())
+    crate::built(&text).map(drop)
 }
 
 #[test]
@@ -97,9 +94,9 @@ fn states_and_conditions_are_referred_to_by_name() {
         (r#"(name: "end", duration: 1)"#, "not 'end'"),
         (
             r#"(duration: 1, expects: Named("pu"))"#,
-            "x.ron:2:52: spec.states[0].expects is 'pu'; accepted: a condition: up",
+            "mine.ron:2:52: spec.states[0].expects is 'pu'; accepted: a condition: up",
         ),
-        (r#"(duration: 1, next: 0)"#, "x.ron:"),
+        (r#"(duration: 1, next: 0)"#, "mine.ron:"),
     ];
     for (states, why) in refusals {
         let told = built(states, up).unwrap_err();

@@ -78,15 +78,16 @@ pub(crate) fn is_infinite(bound: &f64) -> bool {
 pub struct Failure<'a> {
     /// The first clause that does not hold.
     pub clause: &'a Condition,
-    /// The value of its feature, if it is about one; the score of a learned boundary.
+    /// The value of its feature, if it is about one; the score of a learned boundary. Of a negation
+    /// that of what it negates.
     pub value: Option<f64>,
     /// What was sensed.
     pub now: &'a Sensors,
 }
 
 impl Condition {
-    /// The first clause that does not hold now; none if the condition holds. Of alternatives
-    /// none of which holds, the last one's refusal is told.
+    /// The first clause that does not hold now; none if the condition holds. Alternatives none of
+    /// which holds are one clause.
     #[must_use]
     pub fn first_failure<'a>(&'a self, now: &'a Sensors) -> Option<Failure<'a>> {
         let refused = |value| {
@@ -110,14 +111,9 @@ impl Condition {
             Self::Posture(any) if any.contains(&now.posture) => None,
             Self::Posture(_) => refused(None),
             Self::All(all) => all.iter().find_map(|c| c.first_failure(now)),
-            Self::Any(any) => {
-                let mut last = refused(None);
-                for c in any {
-                    last = Some(c.first_failure(now)?);
-                }
-                last
-            }
-            Self::Not(c) if c.holds(now) => refused(None),
+            Self::Any(any) if any.iter().any(|c| c.holds(now)) => None,
+            Self::Any(_) => refused(None),
+            Self::Not(c) if c.holds(now) => refused(c.value(now)),
             Self::Not(_) => None,
             Self::Svm(boundary) => {
                 let score = boundary.score(now);
@@ -127,6 +123,15 @@ impl Condition {
                     refused(Some(score))
                 }
             }
+        }
+    }
+
+    /// The value that it bounds.
+    fn value(&self, now: &Sensors) -> Option<f64> {
+        match self {
+            Self::Within { feature, .. } => Some(feature.value(now)),
+            Self::Svm(boundary) => Some(boundary.score(now)),
+            _ => None,
         }
     }
 
@@ -314,6 +319,10 @@ impl Failure<'_> {
             }
             (_, Some(v)) => Found::Value(v),
             (Condition::Posture(_), None) => Found::State(self.now.posture.name().to_owned()),
+            (Condition::Any(any), None) if !any.is_empty() => {
+                let refusals = any.iter().filter_map(|c| c.first_failure(self.now));
+                Found::NoneOf(refusals.map(|r| r.unmet()).collect())
+            }
             _ => Found::Nothing,
         };
         Unmet {
@@ -325,11 +334,7 @@ impl Failure<'_> {
     /// The same, said of an expected performance.
     #[must_use]
     pub fn expected(&self) -> Unmet {
-        let Unmet { clause, found } = self.unmet();
-        Unmet {
-            clause: format!("expected {clause}"),
-            found,
-        }
+        self.unmet().after("expected")
     }
 }
 

@@ -11,7 +11,7 @@ use serde::de::DeserializeOwned;
 use crate::character::Model;
 use crate::control::contract::Contract;
 use crate::control::controller::Controller;
-use crate::input::{Error, Result, Source, options};
+use crate::input::{Error, Result, Source};
 
 /// The parameters of one kind of controller, as in the `spec` field of a file.
 ///
@@ -68,18 +68,31 @@ pub struct ControllerFile {
     /// The kind's parameters.
     #[serde(default = "empty")]
     pub spec: Box<RawValue>,
+    /// The text that it stands in, for messages.
+    #[serde(skip)]
+    pub source: Source,
 }
 
 impl ControllerFile {
-    /// Its parameters; `origin` is what errors call it.
+    /// Parses the text that a controller file is, or the part of a text ([`Source::part`]).
+    ///
+    /// # Errors
+    /// [`Error::Syntax`] with line and column.
+    pub fn parse(source: Source) -> Result<Self> {
+        let file: Self = source.parse()?;
+        Ok(Self { source, ..file })
+    }
+
+    /// Its parameters.
     ///
     /// # Errors
     /// Another kind of controller, or bad syntax.
-    pub fn parameters<S: Spec>(&self, origin: &str) -> Result<S> {
+    pub fn parameters<S: Spec>(&self) -> Result<S> {
         if self.kind != S::KIND {
-            return Err(Error::unknown("kind", &self.kind, [S::KIND]));
+            let other = Error::unknown("kind", &self.kind, [S::KIND]);
+            return Err(self.source.locate(other.inside("kind")));
         }
-        Source::new(origin, self.spec.get_ron()).parse()
+        self.source.parse_part("spec", &self.spec)
     }
 }
 
@@ -142,17 +155,12 @@ impl Registry {
         self.files.keys().map(String::as_str)
     }
 
-    /// Builds a controller from a parsed file. `source` is the text that the file is, or the part of
-    /// a text ([`Source::part`]).
+    /// Builds a controller from a parsed file.
     ///
     /// # Errors
     /// An unknown kind, with the nearest; a spec or contract that does not fit the character.
-    pub fn build(
-        &self,
-        source: &Source,
-        file: &ControllerFile,
-        model: &Arc<Model>,
-    ) -> Result<Box<dyn Controller>> {
+    pub fn build(&self, file: &ControllerFile, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
+        let source = &file.source;
         let build = self.kinds.get(file.kind.as_str()).ok_or_else(|| {
             let known = self.kinds.keys().copied();
             source.locate(Error::unknown("controller kind", &file.kind, known).inside("kind"))
@@ -170,8 +178,7 @@ fn build<S: Spec>(
     contract: Contract,
     model: &Arc<Model>,
 ) -> Result<Box<dyn Controller>> {
-    let spec = options().from_str::<S>(raw.get_ron());
-    let spec = spec.map_err(|e| source.syntax(&e, "spec"))?;
+    let spec: S = source.parse_part("spec", raw)?;
     let built = spec.build(contract, model);
     built.map_err(|e| source.locate(e.inside("spec")))
 }

@@ -47,9 +47,8 @@ enum Entry {
     },
 }
 
-/// A controller of a repertoire with the text that it stands in, and what was learned about it.
+/// A controller of a repertoire, and what was learned about it.
 struct RepertoirePart {
-    source: Source,
     controller: ControllerFile,
     learned: Option<(Source, Boundary)>,
 }
@@ -57,8 +56,7 @@ struct RepertoirePart {
 impl RepertoirePart {
     fn of(source: Source) -> Result<Self> {
         Ok(Self {
-            controller: source.parse()?,
-            source,
+            controller: ControllerFile::parse(source)?,
             learned: None,
         })
     }
@@ -85,7 +83,8 @@ impl RepertoirePart {
         };
         boundary.resolve(model).map_err(|e| source.locate(e))?;
         let resolved = self.controller.contract.resolve(model);
-        resolved.map_err(|e| self.source.locate(e.inside("contract")))
+        let source = &self.controller.source;
+        resolved.map_err(|e| source.locate(e.inside("contract")))
     }
 
     /// The controller with its whole pre-condition: what was written by hand prunes, what was
@@ -126,8 +125,7 @@ pub fn build(
     let mut pool = Vec::with_capacity(file.controllers.len());
     for mut part in parts(source, &file, folder, registry)? {
         part.resolve(model)?;
-        let source = part.source.clone();
-        pool.push(registry.build(&source, &part.controller(), model)?);
+        pool.push(registry.build(&part.controller(), model)?);
     }
     pool::fallback(&pool, &file.fallback).map_err(|e| source.locate(e))?;
     Supervisor::new(&file.name, pool, &file.fallback)
@@ -172,8 +170,10 @@ fn parts(
         let here = FieldPath::from(("controllers", i));
         match entry {
             Entry::Here(controller) => Ok(RepertoirePart {
-                source: source.part(here.then(FieldPath::inner())),
-                controller: ControllerFile::clone(controller),
+                controller: ControllerFile {
+                    source: source.part(here.then(FieldPath::inner())),
+                    ..ControllerFile::clone(controller)
+                },
                 learned: None,
             }),
             Entry::File(name) => {

@@ -4,7 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// A clause that does not hold. As text: `com_height ≥ 0.9 (is 0.812)`.
+/// A clause that does not hold. As text: `com_height ≥ 0.9 (is 0.812)`; of alternatives each with
+/// what was found: `capture_rear ≥ 0.08 (is 0.041) or trunk_rate ≤ 2 (is 6.372)`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Unmet {
     /// The clause, as it is printed.
@@ -25,6 +26,8 @@ pub enum Found {
     State(String),
     /// The feature has no value now; why.
     Absent(String),
+    /// None of the clause's alternatives holds; why each does not.
+    NoneOf(Vec<Unmet>),
 }
 
 impl Unmet {
@@ -35,6 +38,18 @@ impl Unmet {
             clause: clause.into(),
             found: Found::Nothing,
         }
+    }
+
+    /// The same with words before it: `after kneel: expected …`.
+    #[must_use]
+    pub fn after(mut self, words: &str) -> Self {
+        self.clause = format!("{words} {}", self.clause);
+        if let Found::NoneOf(alternatives) = &mut self.found
+            && let Some(first) = alternatives.first_mut()
+        {
+            *first = std::mem::replace(first, Self::plain("")).after(words);
+        }
+        self
     }
 
     /// The value that was refused, if it is a number.
@@ -49,16 +64,30 @@ impl Unmet {
 
 impl fmt::Display for Unmet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}{}", self.clause, self.found)
+        let Found::NoneOf(alternatives) = &self.found else {
+            return write!(f, "{}{}", self.clause, self.found);
+        };
+        for (i, alternative) in alternatives.iter().enumerate() {
+            write!(f, "{}{alternative}", if i > 0 { " or " } else { "" })?;
+        }
+        Ok(())
     }
 }
 
-/// With a space before it, to stand behind the clause; empty for [`Found::Nothing`].
+/// Decimals of a value: three, or up to five if it takes them to tell it from a bound of two.
+fn decimals(v: f64) -> usize {
+    let round = format!("{v:.2}");
+    let tells = |d: &usize| format!("{v:.d$}").trim_end_matches('0') != round.trim_end_matches('0');
+    (3..=5).find(tells).unwrap_or(3)
+}
+
+/// With a space before it, to stand behind the clause; empty for [`Found::Nothing`] and for
+/// alternatives, which say it themselves.
 impl fmt::Display for Found {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Nothing => Ok(()),
-            Self::Value(v) => write!(f, " (is {v:.3})"),
+            Self::Nothing | Self::NoneOf(_) => Ok(()),
+            Self::Value(v) => write!(f, " (is {v:.0$})", decimals(*v)),
             Self::State(state) => write!(f, " (is {state})"),
             Self::Absent(why) => write!(f, " ({why})"),
         }
@@ -80,6 +109,8 @@ mod tests {
         };
         assert_eq!(text(Found::Nothing), "c ≥ 1");
         assert_eq!(text(Found::Value(0.8125)), "c ≥ 1 (is 0.812)");
+        assert_eq!(text(Found::Value(0.9997)), "c ≥ 1 (is 0.9997)");
+        assert_eq!(text(Found::Value(0.5)), "c ≥ 1 (is 0.500)");
         assert_eq!(text(Found::State("prone".into())), "c ≥ 1 (is prone)");
         let absent = Found::Absent("there is no prop 'ball'".into());
         assert_eq!(text(absent), "c ≥ 1 (there is no prop 'ball')");

@@ -4,11 +4,13 @@ use std::fs::File;
 use std::io::{Read, Write};
 use std::path::Path;
 
+use ron::value::RawValue;
 use serde::de::DeserializeOwned;
 
 use crate::input::error::{Error, Result};
 use crate::input::locate;
 use crate::input::path::FieldPath;
+use crate::input::syntax;
 
 /// The largest text file (character, repertoire, scenario, controller) that is read: 1 MiB.
 pub const LARGEST_TEXT: u64 = 1 << 20;
@@ -74,27 +76,40 @@ impl Source {
             .map_err(|e| self.spanned(&e, (0, 0)))
     }
 
-    /// The complaint of a parser that was given the text of the value at `path` alone, as an
-    /// [`Error::Syntax`] with its place in the whole text.
-    #[must_use]
-    pub fn syntax(&self, error: &ron::error::SpannedError, path: impl Into<FieldPath>) -> Error {
-        let start = locate::start(&self.text, &self.inside.clone().then(path));
-        let (line, column) = locate::line_and_column(&self.text, start);
-        self.spanned(error, (line - 1, column - 1))
+    /// Parses the value at `path`, which the parser of the text has left as it stands.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`] with line and column in the whole text.
+    pub fn parse_part<T: DeserializeOwned>(
+        &self,
+        path: impl Into<FieldPath>,
+        raw: &RawValue,
+    ) -> Result<T> {
+        options().from_str(raw.get_ron()).map_err(|e| {
+            let start = locate::start(&self.text, &self.inside.clone().then(path));
+            let (line, column) = locate::line_and_column(&self.text, start);
+            self.spanned(&e, (line - 1, column - 1))
+        })
     }
 
     /// `offset` is the (line, column) at which the parsed part begins in the whole text, from 0.
     fn spanned(&self, error: &ron::error::SpannedError, offset: (usize, usize)) -> Error {
         let start = error.span.start;
+        let line = start.line + offset.0;
+        let text = self
+            .text
+            .lines()
+            .nth(line.saturating_sub(1))
+            .unwrap_or_default();
         Error::Syntax {
             origin: self.origin.clone(),
-            line: start.line + offset.0,
+            line,
             column: if start.line <= 1 {
                 start.col + offset.1
             } else {
                 start.col
             },
-            message: error.code.to_string(),
+            message: syntax::message(&error.code, text),
         }
     }
 

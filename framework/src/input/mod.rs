@@ -10,6 +10,7 @@ mod file;
 mod locate;
 mod path;
 mod shipped;
+mod syntax;
 
 pub use error::{Error, Result, nearest, shortened};
 pub use file::{LARGEST_TEXT, Source, options, read_bounded, stream_atomically, write_atomically};

@@ -55,7 +55,7 @@ impl Clip {
             let (problem, accepted) = (skill.kind(), CmrtSpec::KIND);
             return Err(Error::invalid(skill.name(), "kind", problem, accepted));
         }
-        let spec: CmrtSpec = skill.file.parameters(skill.name())?;
+        let spec: CmrtSpec = skill.file.parameters()?;
         let controller = spec
             .clone()
             .controller(skill.contract.clone(), &model)?

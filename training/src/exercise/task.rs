@@ -11,8 +11,8 @@
 //! exercise: Stand(forward: (38, 50), backward: (34, 42))
 //! ```
 
-use aplomb_framework::control::Condition;
-use aplomb_framework::input::{Error, Result, Source, check};
+use aplomb_framework::control::{Condition, Contract};
+use aplomb_framework::input::{Error, Result, check};
 use serde::{Deserialize, Serialize};
 
 use crate::exercise::rising::Goal;
@@ -87,13 +87,15 @@ impl Task {
     /// never ends or has always succeeded, and one that is to act unasked but acts only on command;
     /// [`Error::Syntax`]; numbers out of bounds.
     pub fn of(skill: &Skill) -> Result<Self> {
+        let source = &skill.file.source;
         let Some(raw) = &skill.file.exercise else {
-            return Err(Error::invalid(skill.name(), "exercise", "missing", EXAMPLE));
+            let missing = Error::refused("exercise", "missing", EXAMPLE);
+            return Err(source.locate(missing));
         };
-        let source = Source::new(format!("{}: exercise", skill.name()), raw.get_ron());
-        let task: Self = source.parse()?;
-        task.check().map_err(|e| source.locate(e))?;
-        task.check_contract(skill)?;
+        let task: Self = source.parse_part("exercise", raw)?;
+        let checked = task.check().map_err(|e| e.inside("exercise"));
+        let fits = checked.and_then(|()| task.check_contract(&skill.contract));
+        fits.map_err(|e| source.locate(e))?;
         Ok(task)
     }
 
@@ -138,11 +140,10 @@ impl Task {
         }
     }
 
-    fn check_contract(&self, skill: &Skill) -> Result<()> {
+    fn check_contract(&self, contract: &Contract) -> Result<()> {
         let invalid = |field: &str, problem: String, accepted: &str| {
-            Err(Error::invalid(skill.name(), field, problem, accepted))
+            Err(Error::refused(field, problem, accepted).inside("contract"))
         };
-        let contract = &skill.contract;
         let post = &contract.postcondition;
         match self {
             Self::Rise { .. } if matches!(post, Condition::Never | Condition::Always) => {
@@ -175,14 +176,16 @@ impl Task {
 mod tests {
     use super::*;
     use crate::exercise::skill::tests::{TUCK, shipped, skills};
+    use aplomb_framework::input::Source;
     use aplomb_framework::sensing::Posture;
 
     /// What is said of TUCK with another exercise.
     fn told(exercise: &str) -> std::result::Result<Task, String> {
         let before = r#"Rise(goal: Reach(posture: supine), heaps: 0.5, impulse: (70.0, 260.0))"#;
         assert!(TUCK.contains(before));
-        let (_folder, skills) = skills(&TUCK.replace(before, exercise));
-        Task::of(Skill::find(&skills, "tuck").unwrap()).map_err(|e| e.to_string())
+        let (folder, skills) = skills(&TUCK.replace(before, exercise));
+        let beside = |e: String| e.replace(&format!("{}/", folder.path().display()), "");
+        Task::of(Skill::find(&skills, "tuck").unwrap()).map_err(|e| beside(e.to_string()))
     }
 
     #[test]
@@ -214,7 +217,10 @@ mod tests {
     #[test]
     fn who_declares_nothing_reads_what_to_write() {
         let told = Task::of(&shipped("bow")).unwrap_err().to_string();
-        assert!(told.starts_with("bow: exercise is missing; "), "{told}");
+        assert!(
+            told.starts_with("built-in skills/bow.ron:2:1: exercise is missing; "),
+            "{told}"
+        );
         assert!(told.contains("exercise: Rise(goal: Stand"), "{told}");
     }
 
@@ -246,10 +252,16 @@ mod tests {
         for (exercise, why) in refusals {
             let told = told(&exercise).unwrap_err();
             assert!(told.contains(why), "{exercise}: {told}");
-            assert!(told.starts_with("tuck: exercise"), "{told}");
+            assert!(told.starts_with("repertoire.ron:14:"), "{told}");
         }
-        let step = "Stand(forward: (1, 2), backward: (1, 2))";
-        assert!(told(step).is_ok());
+        let told = told("Stand(forward: (1, 2), backward: (3, 3))").unwrap_err();
+        let place = "repertoire.ron:14:57: exercise.backward[1] is 3; ";
+        assert!(told.starts_with(place), "{told}");
+    }
+
+    #[test]
+    fn what_is_within_bounds_is_taken() {
+        assert!(told("Stand(forward: (1, 2), backward: (1, 2))").is_ok());
     }
 
     #[test]

@@ -7,7 +7,7 @@
 
 use aplomb_framework::control::{Condition, Contract, Controller, Registry, Supervisor};
 use aplomb_framework::events::{EventKind, Reason};
-use aplomb_framework::input::{Result, Source};
+use aplomb_framework::input::Result;
 use aplomb_framework::run::Simulation;
 use aplomb_framework::sensing::Feature;
 use aplomb_framework::world::Settings;
@@ -53,8 +53,7 @@ impl Trial {
             // It never gives way by itself: what it can do shows when nobody takes over from it.
             file.contract.expected = Condition::Always;
         }
-        let place = Source::new(skill.name().to_owned(), "");
-        let controller = registry.build(&place, &file, &skill.model)?;
+        let controller = registry.build(&file, &skill.model)?;
         let limp = vec![0.0; skill.model.joint_count()];
         let idle: Box<dyn Controller> = Box::new(Held::new("idle", &skill.model, limp, 0.0));
         Ok(Self {

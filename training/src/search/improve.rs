@@ -24,7 +24,7 @@ use crate::exercise::skill::Skill;
 use crate::exercise::{Drill, Exercise, Score, Task};
 use crate::search::cma_es::{Best, Search, minimise, population};
 use crate::search::journal::{Journal, beside};
-use crate::search::tune::{Tunable, at, line_of, point_of, text_of};
+use crate::search::tune::{Tunable, at, line_of, point_of, spec_of, text_of};
 
 /// The kinds of controllers that can be searched.
 pub const KINDS: [&str; 5] = [
@@ -113,7 +113,7 @@ fn search<T: Tunable>(
     mut watch: impl FnMut(SearchStage) -> ControlFlow<()>,
 ) -> Result<Option<FoundNumbers>> {
     let (model, contract) = (&skill.model, &skill.contract);
-    let file = skill.file.parameters::<T>(skill.name())?;
+    let file = skill.file.parameters::<T>()?;
     let task = Task::of(skill)?;
     let search = Search {
         sigma: plan.sigma,
@@ -227,8 +227,7 @@ fn open<T: Tunable>(
     let written = Source::read(plan.out).and_then(|source| line_in::<T>(&source, task));
     if written.is_ok_and(|written| written == now) {
         let source = Source::new(path.display().to_string(), before);
-        let first: ControllerFile = source.parse()?;
-        return Ok((journal, first.parameters(&source.origin)?));
+        return Ok((journal, ControllerFile::parse(source)?.parameters()?));
     }
     let accepted = "the controller as it was when the search began";
     let place = path.display().to_string();
@@ -236,9 +235,8 @@ fn open<T: Tunable>(
 }
 
 fn line_in<T: Tunable>(source: &Source, task: &Task) -> Result<String> {
-    let file: ControllerFile = source.parse()?;
-    let spec = file.parameters::<T>(&source.origin)?;
-    Ok(line_of(&file.contract, Some(task), &spec))
+    let (contract, spec) = spec_of::<T>(source)?;
+    Ok(line_of(&contract, Some(task), &spec))
 }
 
 /// Written over the controller.

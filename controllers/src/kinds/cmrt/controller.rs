@@ -140,8 +140,7 @@ impl CmrtSpec {
 
 fn shipped_balance() -> Result<BalanceSpec> {
     let source = Source::new("built-in skills/balance.ron", BALANCE);
-    let file: ControllerFile = source.parse()?;
-    file.parameters(&source.origin)
+    ControllerFile::parse(source)?.parameters()
 }
 
 impl CmrtController {

@@ -21,7 +21,13 @@ fn the_first_clause_that_fails_is_told_with_its_value() {
         Condition::Any(vec![within("com_velocity_x", -0.3, 0.3), Condition::Never]),
         within("com_velocity_x", -0.5, 0.5),
     ]);
-    assert_eq!(c.first_failure(&now).unwrap().to_string(), "never");
+    let refusal = c.first_failure(&now).unwrap();
+    let told = "com_velocity_x in -0.3..0.3 (is 0.700) or never";
+    assert_eq!(refusal.to_string(), told);
+    assert_eq!(refusal.expected().to_string(), format!("expected {told}"));
+    let not = Condition::Not(Box::new(within("com_velocity_x", -0.5, 1.0)));
+    let told = "not com_velocity_x in -0.5..1 (is 0.700)";
+    assert_eq!(not.first_failure(&now).unwrap().to_string(), told);
     let c = Condition::All(vec![within("com_velocity_x", -0.5, 0.5)]);
     let refusal = c.first_failure(&now).unwrap();
     assert_eq!(refusal.value, Some(0.7));

@@ -73,8 +73,8 @@ pub fn point_of<T: Tunable>(spec: &T, model: &Model) -> Vec<f64> {
 /// # Errors
 /// Bad syntax, or another kind of controller.
 pub fn spec_of<T: Spec>(source: &Source) -> Result<(Contract, T)> {
-    let file: ControllerFile = source.parse()?;
-    let spec = file.parameters(&source.origin)?;
+    let file = ControllerFile::parse(source.clone())?;
+    let spec = file.parameters()?;
     Ok((file.contract, spec))
 }
 

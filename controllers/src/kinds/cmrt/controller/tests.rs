@@ -4,10 +4,10 @@ use aplomb_framework::sensing::Sensors;
 fn shipped(name: &str) -> (Arc<Model>, CmrtController) {
     let model = Model::load("humanoid").unwrap();
     let source = crate::registry().file(name).unwrap();
-    let file: ControllerFile = source.parse().unwrap();
+    let file = ControllerFile::parse(source).unwrap();
     let mut contract = file.contract.clone();
     contract.resolve(&model).unwrap();
-    let spec: CmrtSpec = file.parameters(name).unwrap();
+    let spec: CmrtSpec = file.parameters().unwrap();
     let controller = spec.controller(contract, &model).unwrap();
     (model, controller)
 }
