@@ -155,7 +155,7 @@ fn bad_boundaries_name_line_field_and_remedy() {
             "[1.0, -inf, -1.0]",
             "decision.coefficients[1] is -inf",
         ),
-        ("provenance", "providence", "`providence`"),
+        ("provenance", "providence", "'providence'"),
     ] {
         check(&with_digest(POLYNOMIAL), from, to, message);
     }
@@ -328,7 +328,7 @@ fn a_boundary_is_shipped_or_read_alone() {
     assert!(
         build(&pool.replace("boundary:", "bound:"))
             .unwrap_err()
-            .contains("`bound`")
+            .contains("'bound'")
     );
 
     let folder = tempfile::tempdir().unwrap();

@@ -104,7 +104,7 @@ fn who_stands_at_the_beginning_is_balanced() {
 fn bad_expectations_are_refused() {
     for (expectation, message) in [
         ("Balanced(character: 1)", "expect[0].character is 1"),
-        ("Holds(condition: Always)", "`at`"),
+        ("Holds(condition: Always)", "'at'"),
         ("Holds(condition: Always, at: -1)", "expect[0].at is -1"),
         (
             "Holds(condition: Always, at: \"when\")",
@@ -126,7 +126,7 @@ fn bad_expectations_are_refused() {
             "Prop(name: \"crat\", what: x, at: 0)",
             "did you mean 'crate'",
         ),
-        ("Prop(name: \"crate\", what: z, at: 0)", "`z`"),
+        ("Prop(name: \"crate\", what: z, at: 0)", "'z'"),
         (
             "Prop(name: \"crate\", what: x, at: 0, min: 1, max: 0)",
             "expect[0].max is 0",

@@ -104,7 +104,7 @@ fn values_out_of_bounds_are_refused_in_the_file_and_when_set() {
             "70",
             "parameters.mass.default is 70; accepted: 0.5 to 20",
         ),
-        ("min: 0.5, max", "min: 5, most", "most", "`most`"),
+        ("min: 0.5, max", "min: 5, most", "most", "'most'"),
         (
             "min: 0.5",
             "min: 25",

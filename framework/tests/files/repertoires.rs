@@ -29,12 +29,12 @@ fn bad_repertoires_name_line_and_remedy() {
             "\"pupet\"",
             "did you mean 'puppet'",
         ),
-        ("weight: 3", "wieght: 3", "wieght", "`wieght`"),
+        ("weight: 3", "wieght: 3", "wieght", "'wieght'"),
         ("weight: 3", "weight: -3", "weight: -3", "out of bounds"),
         ("weight: 3", "weight: \"3\"", "weight: \"3\"", "integer"),
         ("weight: 3,", "", "            ),", "weight"),
         ("torque: 1.5", "torque: \"much\"", "much", "float"),
-        ("torque: 1.5", "troque: 1.5", "troque", "`troque`"),
+        ("torque: 1.5", "troque: 1.5", "troque", "'troque'"),
         ("torque: 1.5", "torque: 1.5 1.5", "1.5 1.5", "comma"),
         (
             "angle.knee_r",
@@ -108,7 +108,7 @@ fn a_missing_fallback_is_told_where_the_repertoire_ends() {
         refusal.starts_with(&format!("pair.ron:{last}:1:")),
         "{refusal}"
     );
-    assert!(refusal.contains("`fallback`"), "{refusal}");
+    assert!(refusal.contains("'fallback'"), "{refusal}");
 }
 
 #[test]

@@ -32,7 +32,7 @@ fn bad_scenarios_name_line_and_remedy() {
             "duration: 0.6",
             "durration: 0.6",
             "durration",
-            "`durration`",
+            "'durration'",
         ),
         ("dt: 0.001", "dt: 0.0", "dt: 0.0", "settings.dt is 0"),
         (

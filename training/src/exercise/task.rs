@@ -255,7 +255,7 @@ mod tests {
             assert!(told.starts_with("repertoire.ron:14:"), "{told}");
         }
         let told = told("Stand(forward: (1, 2), backward: (3, 3))").unwrap_err();
-        let place = "repertoire.ron:14:57: exercise.backward[1] is 3; ";
+        let place = "repertoire.ron:14:52: controllers[0].exercise.backward[1] is 3; ";
         assert!(told.starts_with(place), "{told}");
     }
 

@@ -164,7 +164,9 @@ mod tests {
     fn another_kind_of_controller_is_refused() {
         let refusal = spec_of::<FallSpec>(&shipped("skills/rest.ron")).unwrap_err();
         assert!(
-            refusal.to_string().contains("unknown kind 'rest'"),
+            refusal
+                .to_string()
+                .contains("rest.ron:3:11: kind is 'rest'"),
             "{refusal}"
         );
     }
