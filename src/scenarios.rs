@@ -126,6 +126,16 @@ mod tests {
     }
 
     #[test]
+    fn every_shipped_scenario_can_be_written_and_read_again() {
+        for (name, _) in shipped() {
+            let scenario = load(name).unwrap();
+            let text = scenario.to_text().unwrap();
+            let again = Scenario::parse(&Source::new("again", text.as_str()));
+            assert_eq!(again.unwrap(), scenario, "{text}");
+        }
+    }
+
+    #[test]
     fn a_clips_command_and_controller_file_have_its_name() {
         let registry = aplomb_controllers::registry();
         for clip in clips() {

@@ -3,8 +3,9 @@
 
 #![allow(clippy::unwrap_used)]
 
+use aplomb::framework::input::Source;
 use aplomb::framework::run::{Simulation, Trajectory};
-use aplomb::framework::scenario::{Number, Scenario, ScheduledInput};
+use aplomb::framework::scenario::{Scenario, ScheduledInput};
 use assert_cmd::cargo::cargo_bin_cmd;
 use serde_json::Value;
 
@@ -15,13 +16,9 @@ const END: f64 = 2.5;
 /// A hard push from the front.
 fn fall() -> Simulation {
     let mut scenario = Scenario::standing("humanoid", END);
-    scenario.events.push(ScheduledInput::Push {
-        at: Number::Value(0.3),
-        link: "torso".to_owned(),
-        impulse: Number::Value(-150.0),
-        over: 0.1,
-        character: 0,
-    });
+    scenario
+        .events
+        .push(ScheduledInput::push(0.3, "torso", -150.0));
     Simulation::new(&scenario, &aplomb::controllers::registry()).unwrap()
 }
 
@@ -61,6 +58,53 @@ fn a_recording_read_back_has_the_digest_and_events_of_its_run() {
     assert_eq!(back.digest(), simulation.digest());
     assert_eq!(back.events, simulation.events());
     assert_eq!(back.len(), 2500);
+}
+
+/// What a person may do to a character by hand.
+const BY_HAND: &str = r#"(name: "by hand", duration: 3, characters: [(character: "humanoid")], events: [
+    Push(at: 0.2, link: "torso", impulse: 30, upward: -20),
+    Throw(at: 0.4, prop: (name: "ball", shape: Capsule(radius: 0.1, from: (0, 0), to: (0, 0)), mass: 4,
+        position: (2, 1.5), velocity: (-6, 1))),
+    Drag(at: 0.9, what: Link(name: "torso"), point: (0, 0.2), to: (0.4, 1.6)),
+    Drag(at: 1.2, what: Link(name: "torso"), point: (0, 0.2), to: (0.6, 2.2)),
+    Set(at: 1.3, setting: gravity, value: 4),
+    Release(at: 1.6),
+    Drag(at: 1.7, what: Prop(0), point: (0, 0), to: (0, 1)),
+    Set(at: 2, setting: friction, value: 0.2),
+])"#;
+
+#[test]
+fn what_is_done_by_hand_is_recorded_and_done_again_alike() {
+    let scenario = Scenario::parse(&Source::new("by hand", BY_HAND)).unwrap();
+    let registry = aplomb::controllers::registry();
+    let mut recorded = Simulation::new(&scenario, &registry).unwrap();
+    recorded.record("by hand", 0);
+    recorded.run(3.0);
+    let back = recorded.recording().unwrap();
+    assert_eq!(back.digest(), recorded.digest());
+    assert!(back.prop(300, 0)[0].is_nan(), "the ball is not there yet");
+    assert!(back.prop(500, 0)[0] < 2.0, "it flies");
+    let lifted = |step| back.moment(step, 0).com[1];
+    assert!(lifted(1600) > lifted(1200) + 0.2, "it is lifted");
+    let kinds: Vec<_> = recorded.events().iter().map(|e| e.kind.name()).collect();
+    for kind in ["push", "thrown", "dragged", "released", "set"] {
+        assert!(kinds.contains(&kind), "{kinds:?}");
+    }
+    // Given one by one while it runs, as a live view does.
+    let idle = Scenario {
+        events: Vec::new(),
+        ..scenario.clone()
+    };
+    let mut live = Simulation::new(&idle, &registry).unwrap();
+    for event in &scenario.events {
+        let at = scenario.number(event.at()).unwrap();
+        live.run(at - live.time());
+        live = live.clone();
+        live.schedule(&idle, event).unwrap();
+    }
+    live.run(3.0 - live.time());
+    assert_eq!(live.digest(), recorded.digest());
+    assert_eq!(live.events(), recorded.events());
 }
 
 #[test]

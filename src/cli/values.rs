@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use aplomb::framework::control::Command;
 use aplomb::framework::input::shortened;
-use aplomb::framework::scenario::{LONGEST_RUN, Number, PUSH_DURATION, ScheduledInput};
+use aplomb::framework::scenario::{LONGEST_RUN, Number, ScheduledInput};
 
 /// The strongest push, N·s either way.
 pub(super) const STRONGEST: f64 = 1e5;
@@ -110,13 +110,7 @@ impl Timed for PushArgument {
     }
 
     fn happening(&self) -> ScheduledInput {
-        ScheduledInput::Push {
-            at: Number::Value(self.at),
-            link: self.link.clone(),
-            impulse: Number::Value(self.impulse),
-            over: PUSH_DURATION,
-            character: 0,
-        }
+        ScheduledInput::push(self.at, &self.link, self.impulse)
     }
 
     fn option(&self) -> String {

@@ -16,13 +16,9 @@ fn every_character_stands_and_takes_a_push() {
             let mut scenario = Scenario::standing(name, 5.0);
             // Over 0.1 s, to a third of a metre a second.
             let impulse = direction * 0.33 * model.total_mass();
-            scenario.events.push(ScheduledInput::Push {
-                at: 1.0.into(),
-                link: "torso".to_owned(),
-                impulse: impulse.into(),
-                over: 0.1,
-                character: 0,
-            });
+            scenario
+                .events
+                .push(ScheduledInput::push(1.0, "torso", impulse));
             let supervisor = repertoire::load(name, &registry(), &model).unwrap();
             let cast = vec![(model.clone(), supervisor)];
             let mut run = Simulation::with_cast(&scenario, cast).unwrap();

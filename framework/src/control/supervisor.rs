@@ -111,6 +111,49 @@ impl Supervisor {
         Self::new(&self.contract.name, pool, &fallback)
     }
 
+    /// The same pool with one controller more, or another in the place of the one with its name.
+    ///
+    /// # Errors
+    /// What makes a pool invalid.
+    pub fn with(&self, controller: Box<dyn Controller>) -> Result<Self> {
+        let name = &controller.contract().name;
+        if self.controllers().any(|c| c.contract().name == *name) {
+            return self.with_replaced(controller);
+        }
+        let mut pool: Vec<_> = self.pool.iter().map(|m| m.controller.clone()).collect();
+        pool.push(controller);
+        let fallback = self.name(self.fallback).to_owned();
+        Self::new(&self.contract.name, pool, &fallback)
+    }
+
+    /// Another pool in the place of this one while it runs. The active controller stays active if
+    /// the new pool has one of its name; those that `same` names go on in their state, the others
+    /// begin afresh.
+    #[must_use]
+    pub fn renewed(&self, new: &Self, now: &Sensors, same: &dyn Fn(&str) -> bool) -> Self {
+        let mut renewed = new.clone();
+        renewed.active = None;
+        for (place, member) in renewed.pool.iter_mut().enumerate() {
+            let name = member.controller.contract().name.clone();
+            let mut old = self.pool.iter().enumerate();
+            let named = |(_, m): &(usize, &Member)| m.controller.contract().name == name;
+            let Some((was, old)) = old.find(named) else {
+                continue;
+            };
+            let active = self.active.filter(|a| a.member == was);
+            if same(&name) {
+                *member = old.clone();
+            } else if active.is_some() {
+                member.controller.enter(now);
+            }
+            if let Some(active) = active {
+                let member = place;
+                renewed.active = Some(Active { member, ..active });
+            }
+        }
+        renewed
+    }
+
     /// The pool of one controller and the fallback.
     ///
     /// # Errors

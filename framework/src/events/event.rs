@@ -88,6 +88,25 @@ pub enum EventKind {
     Fell,
     /// Standing again, after a fall.
     Stood,
+    /// Somebody threw or dropped a prop into the world.
+    Thrown {
+        /// The prop.
+        prop: String,
+    },
+    /// Somebody began to drag a link or a prop.
+    Dragged {
+        /// Its name.
+        body: String,
+    },
+    /// Somebody let go of what was dragged.
+    Released,
+    /// A setting of the world changed.
+    Set {
+        /// Which: `friction`, `gravity`.
+        name: String,
+        /// To what, in its unit.
+        value: f64,
+    },
 }
 
 /// Why control changed hands.
@@ -140,6 +159,10 @@ impl EventKind {
             Self::Broke { .. } => "broke",
             Self::Fell => "fell",
             Self::Stood => "stood",
+            Self::Thrown { .. } => "thrown",
+            Self::Dragged { .. } => "dragged",
+            Self::Released => "released",
+            Self::Set { .. } => "set",
         }
     }
 
@@ -165,6 +188,10 @@ impl EventKind {
             Self::Broke { prop, .. } => format!("{prop} breaks off"),
             Self::Fell => "fell".to_owned(),
             Self::Stood => "stood".to_owned(),
+            Self::Thrown { prop } => format!("{prop} thrown"),
+            Self::Dragged { body } => format!("{body} dragged"),
+            Self::Released => "released".to_owned(),
+            Self::Set { name, value } => format!("{name} {value}"),
             Self::Switch { .. } | Self::Refused { .. } => return None,
         })
     }
@@ -203,7 +230,11 @@ impl fmt::Display for EventKind {
                 let from = from.as_deref().unwrap_or("the world");
                 write!(f, "{name:8} {prop} from {from}")
             }
-            Self::Fell | Self::Stood => f.write_str(name),
+            Self::Thrown { prop: thing } | Self::Dragged { body: thing } => {
+                write!(f, "{name:8} {thing}")
+            }
+            Self::Set { name: what, value } => write!(f, "{name:8} {what} {value}"),
+            Self::Fell | Self::Stood | Self::Released => f.write_str(name),
         }
     }
 }

@@ -52,6 +52,13 @@ fn every(text: &str, number: f64, found: Found) -> Vec<EventKind> {
         EventKind::Broke { prop: text(), from },
         EventKind::Fell,
         EventKind::Stood,
+        EventKind::Thrown { prop: text() },
+        EventKind::Dragged { body: text() },
+        EventKind::Released,
+        EventKind::Set {
+            name: text(),
+            value: number,
+        },
     ];
     let reasons = [
         Reason::Start,
@@ -81,6 +88,10 @@ fn place(kind: &EventKind) -> usize {
         EventKind::Fell => 6,
         EventKind::Stood => 7,
         EventKind::Switch { .. } => 8,
+        EventKind::Thrown { .. } => 9,
+        EventKind::Dragged { .. } => 10,
+        EventKind::Released => 11,
+        EventKind::Set { .. } => 12,
     }
 }
 

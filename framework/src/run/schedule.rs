@@ -1,26 +1,35 @@
-//! What is still to be done to the characters of a run.
+//! What is still to be done in a run.
 //!
 //! scheduled inputs → [`Schedule`] → what is due at a step.
 
-use crate::character::Model;
+use crate::character::{Model, Point};
 use crate::control::Supervisor;
 use crate::input::{Error, Result};
-use crate::scenario::{Number, Scenario, ScheduledInput};
+use crate::scenario::{Changeable, DragTarget, Number, Scenario, ScheduledInput};
+use crate::world::{Dragged, Prop, Pull};
 
-/// What is done to a character.
+/// What is done.
 #[derive(Debug, Clone)]
 pub(crate) enum Input {
     /// A push at a link's centre of mass.
     Push {
         /// Place of the link.
         link: usize,
-        /// N·s, forward positive.
-        impulse: f64,
+        /// N·s, forward and up.
+        impulse: Point,
         /// s over which it is spread.
         over: f64,
     },
     /// A command string.
     Command(String),
+    /// A prop appears.
+    Throw(Box<Prop>),
+    /// A spring drags.
+    Drag(Pull),
+    /// It lets go.
+    Release,
+    /// A setting of the world changes.
+    Set(Changeable, f64),
 }
 
 /// An input at its time.
@@ -28,7 +37,7 @@ pub(crate) enum Input {
 pub(crate) struct TimedInput {
     /// s
     pub(crate) time: f64,
-    /// Place of the character.
+    /// Place of the character; the first of what is done to none.
     pub(crate) character: usize,
     /// What is done.
     pub(crate) input: Input,
@@ -47,38 +56,51 @@ impl TimedInput {
         supervisor: &Supervisor,
     ) -> Result<Self> {
         let number = |field: &str, n: &Number| scenario.number(n).map_err(|e| e.inside(field));
-        match event {
+        let input = match event {
             ScheduledInput::Push {
-                at,
                 link,
                 impulse,
+                upward,
                 over,
-                character,
-            } => Ok(Self {
-                time: number("at", at)?,
-                character: *character,
-                input: Input::Push {
-                    link: model.link_index(link).map_err(|e| e.inside("link"))?,
-                    impulse: number("impulse", impulse)?,
-                    over: *over,
-                },
-            }),
-            ScheduledInput::Command {
-                at,
-                text,
-                character,
-            } => {
+                ..
+            } => Input::Push {
+                link: model.link_index(link).map_err(|e| e.inside("link"))?,
+                impulse: [number("impulse", impulse)?, number("upward", upward)?],
+                over: *over,
+            },
+            ScheduledInput::Command { text, .. } => {
                 // A trial on a clone: commands that nobody answers to are found before the run.
                 let of = |e: Error| e.inside("text");
                 let text = scenario.filled(text).map_err(of)?;
                 supervisor.clone().command(&text).map_err(of)?;
-                Ok(Self {
-                    time: number("at", at)?,
-                    character: *character,
-                    input: Input::Command(text),
-                })
+                Input::Command(text)
             }
-        }
+            ScheduledInput::Throw { prop, .. } => {
+                let prop = scenario.prop(prop).map_err(|e| e.inside("prop"))?;
+                Input::Throw(Box::new(prop))
+            }
+            ScheduledInput::Drag {
+                what, point, to, ..
+            } => {
+                let dragged = match what {
+                    DragTarget::Link { name, character } => Dragged::Link {
+                        character: *character,
+                        link: model.link_index(name).map_err(|e| e.inside("what"))?,
+                    },
+                    DragTarget::Prop(prop) => Dragged::Prop(*prop),
+                };
+                Input::Drag(Pull::new(dragged, *point, *to))
+            }
+            ScheduledInput::Release { .. } => Input::Release,
+            ScheduledInput::Set { setting, value, .. } => {
+                Input::Set(*setting, number("value", value)?)
+            }
+        };
+        Ok(Self {
+            time: number("at", event.at())?,
+            character: event.character(),
+            input,
+        })
     }
 }
 
@@ -97,5 +119,13 @@ impl Schedule {
     /// Takes out the next input if its time is before `due`.
     pub(crate) fn next_before(&mut self, due: f64) -> Option<TimedInput> {
         self.0.pop_if(|t| t.time < due)
+    }
+
+    /// The props that are still to appear, in their order, each with its time, s.
+    pub(crate) fn props(&self) -> impl Iterator<Item = (f64, &Prop)> {
+        self.0.iter().rev().filter_map(|t| match &t.input {
+            Input::Throw(prop) => Some((t.time, &**prop)),
+            _ => None,
+        })
     }
 }

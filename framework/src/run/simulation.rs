@@ -14,9 +14,9 @@ use crate::run::schedule::{Input, Schedule, TimedInput};
 use crate::run::start::start_state;
 use crate::run::trajectory::{Cast, Digest, Header, Trajectory, push_character};
 use crate::run::watch::Watch;
-use crate::scenario::{PUSH_DURATION, Scenario, ScheduledInput};
+use crate::scenario::{Changeable, MOST_ENTRIES, PUSH_DURATION, Scenario, ScheduledInput};
 use crate::sensing::Sensors;
-use crate::world::World;
+use crate::world::{Dragged, Prop, Pull, World};
 
 /// One step of the whole loop for one character: sense, think, actuate. Returns what was sensed.
 /// The world is stepped by the caller, once for all characters.
@@ -214,6 +214,15 @@ impl Simulation {
 
     /// Starts recording every step from here on.
     pub fn record(&mut self, scenario: &str, seed: u64) {
+        self.record_with(scenario, seed, Vec::new());
+    }
+
+    /// The same for a run in which more props will appear than are scheduled: each with its time, s.
+    pub fn record_with(&mut self, scenario: &str, seed: u64, more: Vec<(f64, Prop)>) {
+        let scheduled = self.schedule.props().map(|(time, prop)| (time, prop.clone()));
+        let mut later: Vec<(f64, Prop)> = scheduled.chain(more).collect();
+        later.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let later = later.into_iter().map(|(_, prop)| prop);
         let cast = (0..self.actors.len()).map(|i| Cast {
             model: self.model(i).source.clone(),
             controllers: self.controllers(i),
@@ -223,7 +232,7 @@ impl Simulation {
             seed,
             dt: self.world.settings().dt,
             cast: cast.collect(),
-            props: self.world.props().cloned().collect(),
+            props: self.world.props().cloned().chain(later).collect(),
         };
         let models = (0..self.actors.len())
             .map(|i| Arc::clone(self.model(i)))
@@ -286,6 +295,12 @@ impl Simulation {
         &self.events
     }
 
+    /// Takes out what has happened so far, for those who keep it themselves: a run that goes on for
+    /// long then holds little. A recording and expectations see only what is left.
+    pub fn take_events(&mut self) -> Vec<Event> {
+        std::mem::take(&mut self.events)
+    }
+
     /// Hash of every step's state so far.
     #[must_use]
     pub fn digest(&self) -> String {
@@ -318,9 +333,13 @@ impl Simulation {
                     link,
                     impulse,
                     over,
-                } => self.do_push(character, link, [impulse, 0.0], over),
+                } => self.do_push(character, link, impulse, over),
                 // A refusal is in the events.
                 Input::Command(text) => drop(self.command(character, &text)),
+                Input::Throw(prop) => self.throw(&prop),
+                Input::Drag(pull) => self.drag(pull),
+                Input::Release => self.release(),
+                Input::Set(setting, value) => self.change(setting, value),
             }
         }
         self.row.clear();
@@ -338,7 +357,7 @@ impl Simulation {
         self.row.extend(self.world.prop_poses().flatten());
         self.digest.row(&self.row);
         if let Some(recording) = &mut self.recording {
-            recording.push_row(&self.row);
+            recording.push_beginning(&self.row);
         }
         for watch in &mut self.watches {
             watch.observe(&self.world);
@@ -362,6 +381,49 @@ impl Simulation {
             impulse,
         };
         self.note(character, kind);
+    }
+
+    /// A prop appears, unless there are already as many as there may be.
+    fn throw(&mut self, prop: &Prop) {
+        if self.world.props().count() < MOST_ENTRIES {
+            self.world.add_prop(prop);
+            let prop = prop.name.clone();
+            self.note(0, EventKind::Thrown { prop });
+        }
+    }
+
+    /// A spring begins to drag, or the one that does moves on. What is not there is not dragged.
+    fn drag(&mut self, pull: Pull) {
+        let (character, body) = match pull.dragged {
+            Dragged::Link { character, link } => {
+                (character, self.model(character).links[link].name.clone())
+            }
+            Dragged::Prop(place) => match self.world.props().nth(place) {
+                Some(prop) => (0, prop.name.clone()),
+                None => return,
+            },
+        };
+        let before = self.world.pull().map(|p| (p.dragged, p.point));
+        self.world.set_pull(Some(pull));
+        if before != Some((pull.dragged, pull.point)) {
+            self.note(character, EventKind::Dragged { body });
+        }
+    }
+
+    fn release(&mut self) {
+        if self.world.pull().is_some() {
+            self.world.set_pull(None);
+            self.note(0, EventKind::Released);
+        }
+    }
+
+    fn change(&mut self, setting: Changeable, value: f64) {
+        match setting {
+            Changeable::Friction => self.world.set_friction(value),
+            Changeable::Gravity => self.world.set_gravity(value),
+        }
+        let name = setting.name().to_owned();
+        self.note(0, EventKind::Set { name, value });
     }
 
     /// Something happened now.

@@ -181,6 +181,13 @@ impl Trajectory {
         self.rows.extend_from_slice(row);
     }
 
+    /// Appends a step's row that may lack the last props: those that have not appeared yet.
+    pub(crate) fn push_beginning(&mut self, row: &[f32]) {
+        self.rows.extend_from_slice(row);
+        let missing = self.width.saturating_sub(row.len());
+        self.rows.extend(std::iter::repeat_n(f32::NAN, missing));
+    }
+
     /// Number of recorded steps.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -231,7 +238,7 @@ impl Trajectory {
         }
     }
 
-    /// (x, y, angle) of a prop at a step.
+    /// (x, y, angle) of a prop at a step; not numbers before it has appeared.
     #[must_use]
     pub fn prop(&self, step: usize, prop: usize) -> [f32; 3] {
         let start = row_width(&self.models, prop);
@@ -254,7 +261,15 @@ impl Trajectory {
     pub fn digest(&self) -> String {
         let mut digest = Digest::default();
         for step in 0..self.len() {
-            digest.row(self.row(step));
+            let mut row = self.row(step);
+            // Props that had not appeared were no part of the step.
+            while let [rest @ .., x, y, angle] = row
+                && rest.len() >= row_width(&self.models, 0)
+                && [x, y, angle].iter().all(|n| n.is_nan())
+            {
+                row = rest;
+            }
+            digest.row(row);
         }
         digest.text()
     }

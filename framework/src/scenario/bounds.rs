@@ -5,10 +5,11 @@
 use crate::character::{Point, Shape};
 use crate::input::{Error, FieldPath, Result, check};
 use crate::scenario::expectation::Expectation;
-use crate::scenario::file::{Scenario, ScheduledInput, Start};
-use crate::scenario::limits::{LONGEST_RUN, MOST_CHARACTERS, MOST_ENTRIES};
+use crate::scenario::file::{Scenario, Start};
+use crate::scenario::limits::{LONGEST_RUN, MOST_CHARACTERS, MOST_ENTRIES, MOST_INPUTS};
 use crate::scenario::number::Adjustable;
 use crate::scenario::props::{HingeEntry, PropEntry};
+use crate::scenario::scheduled::ScheduledInput;
 use crate::world::Settings;
 
 /// The furthest that anything may be from its frame's origin, m.
@@ -27,12 +28,12 @@ impl Scenario {
         for (field, len) in [
             ("props", self.props.len()),
             ("joints", self.joints.len()),
-            ("events", self.events.len()),
             ("expect", self.expect.len()),
             ("parameters", self.parameters.len()),
         ] {
             check::count(field, len, 0..=MOST_ENTRIES, "entries")?;
         }
+        check::count("events", self.events.len(), 0..=MOST_INPUTS, "entries")?;
         for (name, p) in &self.parameters {
             let of = |e: Error| e.inside(FieldPath::entry(name)).inside("parameters");
             check_parameter(p).map_err(of)?;
@@ -90,17 +91,31 @@ impl Scenario {
     fn check_event(&self, event: &ScheduledInput) -> Result<()> {
         match event {
             ScheduledInput::Push {
-                at, impulse, over, ..
+                impulse,
+                upward,
+                over,
+                ..
             } => {
-                self.check_number("at", at, 0.0..=LONGEST_RUN)?;
                 self.check_number("impulse", impulse, -1e5..=1e5)?;
+                self.check_number("upward", upward, -1e5..=1e5)?;
                 check::within("over", *over, 1e-4..=60.0)?;
             }
-            ScheduledInput::Command { at, text, .. } => {
+            ScheduledInput::Command { text, .. } => {
                 self.filled(text).map_err(|e| e.inside("text"))?;
-                self.check_number("at", at, 0.0..=LONGEST_RUN)?;
+            }
+            ScheduledInput::Throw { prop, .. } => {
+                self.check_prop(prop).map_err(|e| e.inside("prop"))?;
+            }
+            ScheduledInput::Drag { point, to, .. } => {
+                check::point(*point, FURTHEST).map_err(|e| e.inside("point"))?;
+                check::point(*to, FURTHEST).map_err(|e| e.inside("to"))?;
+            }
+            ScheduledInput::Release { .. } => {}
+            ScheduledInput::Set { setting, value, .. } => {
+                self.check_number("value", value, setting.accepted())?;
             }
         }
+        self.check_number("at", event.at(), 0.0..=LONGEST_RUN)?;
         self.check_character(event.character())
     }
 

@@ -2,7 +2,7 @@
 //!
 //! RON → [`Expectation`] → `run`, which judges it.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::control::Condition;
 use crate::scenario::limits::LONGEST_RUN;
@@ -11,7 +11,7 @@ use crate::sensing::Posture;
 use crate::world::PropMotion;
 
 /// What a run is expected to show.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Expectation {
     /// Standing (as a run's end is judged) at the end.
@@ -89,7 +89,7 @@ pub enum Expectation {
 }
 
 /// A number of a prop's motion, world frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Quantity {
     /// m, forward.

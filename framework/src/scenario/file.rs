@@ -6,19 +6,20 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use serde::Deserialize;
+use ron::ser::PrettyConfig;
+use serde::{Deserialize, Serialize};
 
 use crate::character::Model;
-use crate::input::{Error, FieldPath, Result, Source, check};
+use crate::input::{Error, FieldPath, Result, Source, check, options};
 use crate::scenario::expectation::Expectation;
-use crate::scenario::limits::PUSH_DURATION;
-use crate::scenario::number::{Adjustable, Number};
+use crate::scenario::number::Adjustable;
 use crate::scenario::origin::Origin;
 use crate::scenario::props::{HingeEntry, PropEntry};
+use crate::scenario::scheduled::ScheduledInput;
 use crate::world::Settings;
 
 /// How a character begins.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Start {
     /// World x of the root's origin, m.
@@ -32,7 +33,7 @@ pub struct Start {
 }
 
 /// A character of a scenario.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Participant {
     /// Built-in name or file.
@@ -43,50 +44,6 @@ pub struct Participant {
     /// Standing by default.
     #[serde(default)]
     pub start: Start,
-}
-
-/// Something done to a character at a time.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum ScheduledInput {
-    /// A push at a link's centre of mass.
-    Push {
-        /// s
-        at: Number,
-        /// Name of the link.
-        link: String,
-        /// Horizontal impulse, N·s, forward positive.
-        impulse: Number,
-        /// s over which it is spread evenly.
-        #[serde(default = "push_duration")]
-        over: f64,
-        /// Place of the character.
-        #[serde(default)]
-        character: usize,
-    },
-    /// A command string.
-    Command {
-        /// s
-        at: Number,
-        /// For the supervisor. `{NAME}` stands for the value of a parameter, `{-NAME}` for its
-        /// negative.
-        text: String,
-        /// Place of the character.
-        #[serde(default)]
-        character: usize,
-    },
-}
-
-impl ScheduledInput {
-    /// Place of the character that it happens to.
-    pub(crate) fn character(&self) -> usize {
-        let (Self::Push { character, .. } | Self::Command { character, .. }) = self;
-        *character
-    }
-}
-
-fn push_duration() -> f64 {
-    PUSH_DURATION
 }
 
 impl Participant {
@@ -110,7 +67,7 @@ impl Participant {
 /// assert_eq!(scenario.parameters["impulse"].value, 30.0); // as it was
 /// # Ok::<(), aplomb_framework::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
     /// For messages and recordings.
@@ -185,6 +142,16 @@ impl Scenario {
         scenario.origin = Origin::new(source);
         scenario.validate().map_err(|e| source.locate(e))?;
         Ok(scenario)
+    }
+
+    /// The scenario as a file, as it now stands: a parameter's value is its default.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for what no file can say.
+    pub fn to_text(&self) -> Result<String> {
+        let pretty = PrettyConfig::new().depth_limit(3).indentor("    ");
+        let text = options().to_string_pretty(self, pretty);
+        text.map_err(|e| Error::invalid(&self.name, "", e, "what a scenario file can say"))
     }
 
     /// The same refusal of one of the scenario's values with its line and column; of a scenario that

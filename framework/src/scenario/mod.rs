@@ -10,11 +10,13 @@ mod number;
 mod origin;
 mod placing;
 mod props;
+mod scheduled;
 mod values;
 
 pub use expectation::{Expectation, Quantity};
-pub use file::{Participant, Scenario, ScheduledInput, Start};
-pub use limits::{LONGEST_RUN, MOST_CHARACTERS, MOST_ENTRIES, PUSH_DURATION};
+pub use file::{Participant, Scenario, Start};
+pub use limits::{LONGEST_RUN, MOST_CHARACTERS, MOST_ENTRIES, MOST_INPUTS, PUSH_DURATION};
 pub use number::{Adjustable, Number};
 pub use origin::Origin;
 pub use props::{HingeEntry, PropEntry};
+pub use scheduled::{Changeable, DragTarget, ScheduledInput};

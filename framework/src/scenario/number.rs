@@ -4,9 +4,9 @@
 
 use std::fmt;
 
-use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserializer, MapAccess, Visitor};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// What a parameter may be set to if the scenario does not say.
 const WIDEST: f64 = 1e6;
@@ -32,6 +32,18 @@ impl Number {
 impl From<f64> for Number {
     fn from(value: f64) -> Self {
         Self::Value(value)
+    }
+}
+
+impl Serialize for Number {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        match self {
+            Self::Value(v) => serializer.serialize_f64(*v),
+            Self::Parameter(name, factor) if *factor < 0.0 => {
+                serializer.collect_str(&format_args!("-{name}"))
+            }
+            Self::Parameter(name, _) => serializer.serialize_str(name),
+        }
     }
 }
 
@@ -84,23 +96,39 @@ impl From<f64> for Adjustable {
     }
 }
 
+impl Serialize for Adjustable {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        let Self { value, min, max } = *self;
+        Ranged {
+            default: value,
+            min,
+            max,
+        }
+        .serialize(serializer)
+    }
+}
+
+/// As it is written with its bounds.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Ranged {
+    default: f64,
+    #[serde(default = "lowest")]
+    min: f64,
+    #[serde(default = "highest")]
+    max: f64,
+}
+
+fn lowest() -> f64 {
+    -WIDEST
+}
+
+fn highest() -> f64 {
+    WIDEST
+}
+
 impl<'de> Deserialize<'de> for Adjustable {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
-        #[derive(Deserialize)]
-        #[serde(deny_unknown_fields)]
-        struct Ranged {
-            default: f64,
-            #[serde(default = "lowest")]
-            min: f64,
-            #[serde(default = "highest")]
-            max: f64,
-        }
-        fn lowest() -> f64 {
-            -WIDEST
-        }
-        fn highest() -> f64 {
-            WIDEST
-        }
         struct AnyParameter;
         impl<'de> Visitor<'de> for AnyParameter {
             type Value = Adjustable;

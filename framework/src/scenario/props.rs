@@ -2,13 +2,13 @@
 //!
 //! RON → [`PropEntry`], [`HingeEntry`] → `placing`.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::character::Shape;
 use crate::scenario::number::Number;
 
 /// A prop of a scenario.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PropEntry {
     /// For hinges, features, expectations, messages and drawings.
@@ -37,7 +37,7 @@ pub struct PropEntry {
 }
 
 /// A hinge between two props, or between a prop and the world. What it joins does not collide.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HingeEntry {
     /// Name of the prop.

@@ -61,6 +61,8 @@ pub struct LinkContact {
     pub knee: bool,
     /// Force on the link over the last step by all that touches it, N, world frame.
     pub force: Point,
+    /// Where it acts: the middle of what touches by its force, world, m; none without load.
+    pub at: Option<Point>,
 }
 
 /// Contact of one foot.

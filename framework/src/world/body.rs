@@ -156,6 +156,7 @@ impl Body {
             let knee = self.knees[i];
             let mut sole = FootContact::default();
             let mut moment = 0.0;
+            let (mut middle_of, mut load) = ([0.0; 2], 0.0);
             for pair in narrow_phase.contact_pairs_with(*collider) {
                 // A ball in the air bears no hand.
                 let thing = other(pair, *collider);
@@ -167,6 +168,10 @@ impl Body {
                     contact.touching = true;
                     contact.force[0] += p.force[0];
                     contact.force[1] += p.force[1];
+                    let size = p.force[0].abs() + p.force[1].abs();
+                    load += size;
+                    middle_of[0] += size * p.at[0];
+                    middle_of[1] += size * p.at[1];
                     if p.normal_up < SUPPORTING || !bears {
                         return;
                     }
@@ -184,6 +189,7 @@ impl Body {
                     moment += p.force[1] * p.at[0];
                 });
             }
+            contact.at = (load > 1.0).then(|| middle_of.map(|m| m / load));
             sensors.contacts[i] = contact;
             if let Some(foot) = foot {
                 sole.cop = (sole.force[1] > 1.0).then(|| moment / sole.force[1]);

@@ -13,6 +13,7 @@ use crate::world::body::{Body, vector};
 use crate::world::fastening::Joined;
 use crate::world::grip::Grips;
 use crate::world::prop::Placed;
+use crate::world::pull::Pull;
 use crate::world::settings::{Settings, integration_parameters};
 
 /// A character in the world with what it senses.
@@ -59,6 +60,9 @@ pub struct World {
     /// What props are hinged to that hang in the world, once there are any.
     pub(super) anchor: Option<RigidBodyHandle>,
     pub(super) pushes: Vec<ConstantForce>,
+    pub(super) pull: Option<Pull>,
+    /// The ground's.
+    pub(super) ground: ColliderHandle,
     pub(super) parameters: IntegrationParameters,
     pub(super) pipeline: PhysicsPipeline,
     pub(super) islands: IslandManager,
@@ -96,6 +100,8 @@ impl Clone for World {
             hinges: self.hinges.clone(),
             anchor: self.anchor,
             pushes: self.pushes.clone(),
+            pull: self.pull,
+            ground: self.ground,
             parameters: self.parameters,
             pipeline: PhysicsPipeline::new(), // a workspace, without memory between steps
             islands: self.islands.clone(),
@@ -117,7 +123,7 @@ impl World {
     #[must_use]
     pub fn new(settings: Settings) -> Self {
         let mut colliders = ColliderSet::new();
-        colliders.insert(
+        let ground = colliders.insert(
             ColliderBuilder::new(SharedShape::halfspace(Vector::Y))
                 .friction(settings.friction as f32),
         );
@@ -130,6 +136,8 @@ impl World {
             hinges: Vec::new(),
             anchor: None,
             pushes: Vec::new(),
+            pull: None,
+            ground,
             parameters: integration_parameters(&settings),
             pipeline: PhysicsPipeline::new(),
             islands: IslandManager::new(),
@@ -149,6 +157,20 @@ impl World {
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
+    }
+
+    /// Changes gravity, m/s², downwards positive.
+    pub fn set_gravity(&mut self, gravity: f64) {
+        self.settings.gravity = gravity;
+        for character in &mut self.characters {
+            character.sensors.gravity = gravity;
+        }
+    }
+
+    /// Changes the friction coefficient of the ground.
+    pub fn set_friction(&mut self, friction: f64) {
+        self.settings.friction = friction;
+        self.colliders[self.ground].set_friction(friction as f32);
     }
 
     /// s since the world began.
@@ -248,6 +270,7 @@ impl World {
         for push in &self.pushes {
             self.bodies[push.handle].add_force(push.force, false);
         }
+        self.drag();
         self.pipeline.step(
             Vector::new(0.0, -self.settings.gravity as f32),
             &self.parameters,
@@ -268,6 +291,7 @@ impl World {
             push.steps -= 1;
         }
         self.pushes.retain(|p| p.steps > 0);
+        self.undo_drag();
         self.steps += 1;
         self.give_way();
     }

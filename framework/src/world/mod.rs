@@ -9,9 +9,11 @@ mod fastening;
 mod grip;
 mod prop;
 mod props;
+mod pull;
 mod settings;
 
 pub use body::Body;
 pub use engine::{Character, World};
 pub use prop::{Hinge, Prop, PropMotion};
+pub use pull::{Dragged, Pull};
 pub use settings::{Settings, integration_parameters};

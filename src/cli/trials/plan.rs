@@ -10,7 +10,7 @@ use aplomb::framework::character::Model;
 use aplomb::framework::control::Registry;
 use aplomb::framework::events::{Event, EventKind};
 use aplomb::framework::run::Simulation;
-use aplomb::framework::scenario::{Number, PUSH_DURATION, Scenario, ScheduledInput};
+use aplomb::framework::scenario::{Scenario, ScheduledInput};
 use aplomb::training::situations::Worlds;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -129,13 +129,9 @@ impl TrialPlan {
         let mut scenario = self.scenario.clone();
         let push = self.draw_push(&mut rng);
         if let Some((link, impulse)) = &push {
-            scenario.events.push(ScheduledInput::Push {
-                at: Number::Value(PUSH_AT),
-                link: link.clone(),
-                impulse: Number::Value(*impulse),
-                over: PUSH_DURATION,
-                character: 0,
-            });
+            scenario
+                .events
+                .push(ScheduledInput::push(PUSH_AT, link, *impulse));
         }
         let TrialStart {
             max_angle,

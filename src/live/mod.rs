@@ -1,0 +1,24 @@
+//! A run that somebody watches and touches: commands in, frames out, back in time and on from there.
+//!
+//! [`Request`]s, seconds that have passed → [`Session`] → frames, events and answers as JSON, one
+//! [`View`] a watcher. Nothing in it reads files or clocks: the server, the page's WebAssembly and
+//! tests drive the same session.
+
+mod answer;
+mod clauses;
+mod frame;
+mod hello;
+mod history;
+mod opened;
+mod request;
+mod save;
+mod scene;
+mod session;
+
+pub use history::History;
+pub use opened::Opened;
+pub use request::{Body, LARGEST_MESSAGE, LARGEST_OPENED, Request, Thrown};
+pub use save::Replay;
+pub use scene::{Scene, SceneNames};
+pub use session::Session;
+pub use frame::View;
