@@ -3,7 +3,8 @@
 //!
 //! This is the facade: [`framework`] (characters, world, sensors, contracts, supervisor),
 //! [`controllers`] (the motor skills), [`training`] (optimisation of their numbers), [`scenarios`]
-//! (the shipped ones) and [`mod@render`] (pictures of recorded runs). SI units and radians
+//! (the shipped ones), [`mod@figure`] (what characters look like) and [`mod@render`] (pictures of
+//! recorded runs). SI units and radians
 //! everywhere; frames and signs are those of [`framework`].
 //!
 //! # The pipeline
@@ -33,6 +34,7 @@ pub use aplomb_controllers as controllers;
 pub use aplomb_framework as framework;
 pub use aplomb_training as training;
 
+pub mod figure;
 #[allow(
     clippy::disallowed_methods,
     reason = "pictures may differ in a last bit; digests do not depend on them"

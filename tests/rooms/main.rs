@@ -37,7 +37,7 @@ const CRATES: [(&str, &[&str]); 4] = [
             "anticipation",
         ],
     ),
-    ("src", &["scenarios", "render", "cli"]),
+    ("src", &["scenarios", "figure", "render", "cli"]),
 ];
 
 /// Arrows from a file (or folder) to those whose items it uses.
