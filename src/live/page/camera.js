@@ -5,6 +5,7 @@ const MARGIN = { left: 30, right: 30, top: 66, bottom: 56 };
 const WIDEST = 14; // m that it shows at most by itself
 const NEAR = 5; // m from a character within which a prop is kept in view
 const RATE = 5; // 1/s, of following
+const HASTE = 16; // 1/s, when something is about to leave the view
 
 export function makeCamera() {
   const camera = {
@@ -50,7 +51,7 @@ export function makeCamera() {
   function update(dt, box) {
     if (!camera.following || !box) return false;
     const goal = aim(box);
-    const share = settled ? 1 - Math.exp(-RATE * Math.min(dt, 0.1)) : 1;
+    const share = settled ? 1 - Math.exp(-(leaves(box) ? HASTE : RATE) * Math.min(dt, 0.1)) : 1;
     settled = true;
     const before = [camera.x, camera.y, camera.scale];
     camera.scale *= (goal.scale / camera.scale) ** share;
@@ -60,11 +61,18 @@ export function makeCamera() {
     return moved > 0.05;
   }
 
+  function leaves(box) {
+    if (camera.zoom > 1) return false;
+    const [left] = camera.toScreen(box.left, 0);
+    const [right, top] = camera.toScreen(box.right, box.high);
+    return left < MARGIN.left || right > camera.width - MARGIN.right || top < 0;
+  }
+
   function aim(box) {
     const room = [camera.width - MARGIN.left - MARGIN.right, camera.height - MARGIN.top - MARGIN.bottom].map((v) => Math.max(v, 60));
     const high = Math.max(box.high, 1.9) + 0.1;
     const low = Math.min(box.low, 0);
-    const wide = Math.max(box.right - box.left + 0.5, 1.2);
+    const wide = Math.max(box.right - box.left + 0.7, 1.2);
     const fitting = Math.min(room[1] / (high - low), room[0] / Math.min(wide, WIDEST));
     const scale = Math.max(fitting, camera.width / (WIDEST + 2)) * camera.zoom;
     // The ground stays near the lower edge, unless zoomed in on the character.
@@ -72,7 +80,7 @@ export function makeCamera() {
     const grounded = low + (camera.height / 2 - MARGIN.bottom) / scale;
     return {
       x: wide > WIDEST || camera.zoom > 1.2 ? box.middle[0] : (box.left + box.right) / 2,
-      y: middle === null ? grounded : Math.max(Math.min(middle, grounded), low - 0.2) ,
+      y: middle === null ? grounded : Math.max(Math.min(middle, grounded), low - 0.2),
       scale,
     };
   }

@@ -1,7 +1,7 @@
 // Commands: a field that completes names and parameters with their ranges, a button for each command
 // of the pool, and a form with a slider for each parameter. Text → message `command`.
 
-import { byId, make, mark, show, short } from "./dom.js";
+import { byId, make, mark, show, plain, short } from "./dom.js";
 
 export function makeCommands(state) {
   const field = byId("command");
@@ -34,7 +34,7 @@ export function makeCommands(state) {
   state.on("hello", buttons);
   state.on("character", buttons);
 
-  const rangeOf = (one) => `${short(one.min)} to ${short(one.max)}, else ${short(one.default)}`;
+  const rangeOf = (one) => `${plain(one.min)} to ${plain(one.max)}, else ${plain(one.default)}`;
   const hintOf = (command) => ["Command", ...command.parameters.map((one) => `${one.name}: ${rangeOf(one)}`)].join("\n");
 
   /** What can stand where the cursor is: names for the first word, parameters after it. */

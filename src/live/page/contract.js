@@ -1,8 +1,8 @@
 // The contract of one controller as sentences: where it takes over, when it has succeeded, what it
 // expects, after how long it gives up. Each clause is green or red as the frame says (`inspect`).
 
-import { byId, make, icon, say, mark, show, place, short } from "./dom.js";
-import { clause, isLeaf, onGauge, slack } from "./words.js";
+import { byId, make, icon, say, mark, show, place, plain, short } from "./dom.js";
+import { clause, isLeaf, onGauge, slack, turned } from "./words.js";
 
 const PARTS = [
   ["pre", "precondition", "Takes over where", "Takes over from any state."],
@@ -61,7 +61,7 @@ export function makeContract(state, command) {
     lines = { pre: [], post: [], expected: [] };
     heads = {};
     const title = make("h2", {}, controller.name);
-    const about = [controller.role, `weight ${short(controller.weight, 1)}`, controller.learned ? "learned boundary" : null];
+    const about = [controller.role, `weight ${plain(controller.weight)}`, controller.learned ? "learned boundary" : null];
     box.replaceChildren(
       make("div", { class: "row" }, title, make("span", { class: "soft" }, about.filter(Boolean).join(" · ")), make("span", { class: "spring" }),
         make("button", { class: "icon plain", "aria-label": "Close the contract", onclick: close }, icon("close"))),
@@ -101,11 +101,15 @@ export function makeContract(state, command) {
     line.item = li;
     lines[part].push(line);
     if (isLeaf(node)) {
-      line.value = make("span", { class: "value number" });
-      line.dot = make("i", {});
-      line.gauge = make("span", { class: "gauge", "aria-hidden": "true" }, line.dot);
-      li.append(make("span", { class: "leaf" }, sign, make("span", { class: "text" }, node.learned ? "learned boundary" : clause(node.text)), line.value, line.gauge));
-      line.gauge.hidden = slack(node, 0) === null;
+      leaf(line, node);
+      return li;
+    }
+    const other = node.not ? turned(node.not) : null;
+    if (other) {
+      // One line for both: the sign of the outer, the value of the inner.
+      leaf(line, other);
+      lines[part].push({ node: other, value: line.value, gauge: line.gauge, dot: line.dot });
+      line.value = null;
       return li;
     }
     const children = node.all ?? node.any ?? [node.not];
@@ -114,12 +118,21 @@ export function makeContract(state, command) {
     return li;
   }
 
+  function leaf(line, node) {
+    line.value = make("span", { class: "value number" });
+    line.dot = make("i", {});
+    line.gauge = make("span", { class: "gauge", "aria-hidden": "true" }, line.dot);
+    line.gauge.hidden = slack(node, 0) === null;
+    const text = make("span", { class: "text" }, node.learned ? "learned boundary" : clause(node.text));
+    line.item.append(make("span", { class: "leaf" }, line.sign, text, line.value, line.gauge));
+  }
+
   function patienceOf(controller) {
     patience = null;
     if (controller.patience === null || controller.patience === undefined) return make("p", { class: "sentence" }, "Never gives up for want of time.");
     const sofar = make("span", { class: "number" });
     patience = { sofar, limit: controller.patience };
-    return make("p", { class: "sentence" }, `Gives up after ${short(controller.patience, 1)} s`, sofar);
+    return make("p", { class: "sentence" }, `Gives up after ${plain(controller.patience)} s`, sofar);
   }
 
   function update() {

@@ -54,7 +54,8 @@ export function short(value, digits = 3) {
   return value.toFixed(places).replace("-", "−");
 }
 
-export const seconds = (t) => `${t.toFixed(3)} s`;
+/** A number that stands still, without zeros at its end. */
+export const plain = (value) => String(Number(value.toPrecision(4))).replace("-", "−");
 
 /** Calls `act` at most once per `wait` ms; the last call is never lost. */
 export function seldom(wait, act) {

@@ -60,6 +60,7 @@ export function makeDrive(state) {
     byId("start-here").disabled = !frame.past;
     byId("back").disabled = frame.n <= frame.first;
     if (document.activeElement !== select) speed(frame.speed);
+    show(byId("rate-label"), !frame.paused);
     say(byId("rate"), frame.paused ? "paused" : `${frame.rtf.toFixed(2)}×`);
     say(byId("dropped"), `${frame.dropped} dropped`);
     mark(byId("dropped"), "data-some", frame.dropped > 0);

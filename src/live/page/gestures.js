@@ -16,7 +16,7 @@ export function makeGestures(stage, camera, pointer) {
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button > 1) return;
     canvas.setPointerCapture(event.pointerId);
-    canvas.focus({ preventScroll: true });
+    if (document.activeElement instanceof HTMLElement) document.activeElement.blur();
     down.set(event.pointerId, at(event));
     if (down.size === 2) {
       pointer.cancel();

@@ -13,10 +13,12 @@ export function makeKeys(state, act) {
   const strength = (by) => {
     slider.value = String(Math.min(MOST, Math.max(LEAST, Number(slider.value) + by)));
     told();
-    act.note(true, `Arrow keys push with ${slider.value} N·s`);
+    act.note(true, `Arrow keys push with ${slider.value} N·s`, "strength");
   };
   const told = () => { byId("strength-text").textContent = `${slider.value} N·s`; };
   slider.addEventListener("input", told);
+  byId("push-left").addEventListener("click", () => push(-1));
+  byId("push-right").addEventListener("click", () => push(1));
 
   function push(way) {
     const link = trunk();
@@ -59,7 +61,6 @@ export function makeKeys(state, act) {
   }
 
   function open() {
-    told();
     help.showModal();
   }
   byId("help-open").addEventListener("click", open);

@@ -16,6 +16,10 @@ import { makeContract } from "./contract.js";
 import { makeMind } from "./mind.js";
 import { makeTimeline } from "./timeline.js";
 import { makeWhy } from "./why.js";
+import { makePlots } from "./plots.js";
+import { makeScene } from "./scene.js";
+import { makeSave } from "./save.js";
+import { makeLink } from "./link.js";
 import { makeKeys } from "./keys.js";
 
 const TOOLS = ["drag", "push", "ball", "crate", "pan"];
@@ -35,6 +39,11 @@ const contract = makeContract(state, commands);
 const mind = makeMind(state, contract);
 const timeline = makeTimeline(state);
 const why = makeWhy(state, drive, tabs);
+const plots = makePlots(state, tabs);
+const scene = makeScene(state, told);
+let connection = null;
+const save = makeSave(state, stage, timeline, () => connection, told);
+makeLink(state, save, scene, told);
 tabs.on("why", why.refresh);
 
 const theme = makeTheme(() => {
@@ -43,6 +52,7 @@ const theme = makeTheme(() => {
   legend.paint();
   mind.paint();
   why.refresh();
+  plots.restyle();
 });
 
 makeKeys(state, {
@@ -60,8 +70,8 @@ makeKeys(state, {
   note: told.note,
 });
 
-const link = connect(state.heard, state.connection);
-state.send = (message) => link.send(message);
+connection = connect(state.heard, state.connection);
+state.send = (message) => connection.send(message);
 
 /** For tests: what the page knows, and where things are, in client pixels. */
 window.aplomb = {

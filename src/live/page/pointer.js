@@ -33,7 +33,9 @@ export function makePointer(state, stage, camera) {
     pointer.tool = tool;
     for (const button of buttons) mark(button, "aria-pressed", button.dataset.tool === tool);
     const throws = tool in SIZES;
-    show(byId("tool-options"), throws);
+    show(byId("tool-options"), throws || tool === "push");
+    show(byId("throw-options"), throws);
+    show(byId("push-options"), tool === "push");
     if (throws) {
       byId("throw-size").value = SIZES[tool];
       byId("throw-size-name").textContent = tool === "ball" ? "Radius, m" : "Half side, m";

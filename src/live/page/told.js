@@ -12,12 +12,13 @@ export function makeTold(state) {
   const files = byId("files");
   let lastRefusal = "";
 
-  function note(ok, text) {
+  /** `key`: a later note with the same one replaces it. */
+  function note(ok, text, key = text) {
     const place = /:\d+:\d+/.test(text);
-    const item = make("div", { class: "told", data: { ok, lasting: !ok && place } },
+    const item = make("div", { class: "told", data: { ok, key, lasting: !ok && place } },
       make("span", {}, text),
       make("button", { class: "icon plain", "aria-label": "Close", onclick: () => item.remove() }, icon("close")));
-    for (const old of [...box.children]) if (old.firstChild.textContent === text) old.remove();
+    for (const old of [...box.children]) if (old.dataset.key === key) old.remove();
     box.append(item);
     if (ok || !place) setTimeout(() => item.remove(), ok ? GOOD_FOR : BAD_FOR);
     while (box.children.length > MOST) box.firstChild.remove();

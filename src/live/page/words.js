@@ -8,12 +8,21 @@ export function clause(text) {
   if (posture) return `posture is ${posture[1].split("|").join(" or ")}`;
   return text
     .replace(/^\((.*)\)$/s, "$1")
+    .replace(/not (\S+) ≥/g, "$1 <")
+    .replace(/not (\S+) ≤/g, "$1 >")
     .replace(/posture ([\w|]+)/g, (_, list) => `posture ${list.split("|").join(" or ")}`)
     .replace(/ in (-?[\d.]+)\.\.(-?[\d.]+)/g, " from $1 to $2")
     .replace(/(^|[ (])-(?=[\d.])/g, "$1−");
 }
 
 const parts = (node) => node.all ?? node.any ?? (node.not ? [node.not] : []);
+
+/** "not x ≥ a" as the leaf "x < a"; null if a condition cannot be turned round so. */
+export function turned(node) {
+  const [min, max] = bounds(node);
+  if (!isLeaf(node) || node.learned || (min === null) === (max === null)) return null;
+  return { ...node, text: clause(`not ${node.text}`), min: max, max: min };
+}
 
 /** The nodes of a condition in pre-order: place 0 is the root. */
 export function nodesOf(root) {
