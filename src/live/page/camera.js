@@ -1,7 +1,7 @@
 // Where the stage looks: world (m, y up) ⇄ stage (CSS pixels, y down). It follows characters and
 // props smoothly, until somebody pans; zooming is a factor on top of what it chooses itself.
 
-const MARGIN = { left: 30, right: 30, top: 66, bottom: 56 };
+const MARGIN = { left: 30, right: 30, top: 66, bottom: 74 };
 const WIDEST = 14; // m that it shows at most by itself
 const NEAR = 5; // m from a character within which a prop is kept in view
 const RATE = 5; // 1/s, of following

@@ -51,6 +51,12 @@ export function makeDrive(state) {
     }));
   });
 
+  /** "balance · standing"; with the character's number if there are several. */
+  function doing(one, k) {
+    const name = state.hello.characters[k].controllers[one.active]?.name ?? "nobody";
+    return `${chips.length > 1 ? `${k + 1}: ` : ""}${name} · ${one.posture.replaceAll("_", " ")}`;
+  }
+
   state.on("texts", (frame) => {
     mark(byId("play"), "data-paused", frame.paused);
     mark(byId("play"), "aria-label", frame.paused ? "Play" : "Pause");
@@ -65,11 +71,11 @@ export function makeDrive(state) {
     say(byId("dropped"), `${frame.dropped} dropped`);
     mark(byId("dropped"), "data-some", frame.dropped > 0);
     frame.c.forEach((one, k) => {
-      const controller = state.hello.characters[k].controllers[one.active];
       const colour = band(one.active);
       if (chips[k].dot.dataset.colour !== colour) chips[k].dot.style.background = chips[k].dot.dataset.colour = colour;
-      say(chips[k].text, `${controller?.name ?? "nobody"} · ${one.posture.replaceAll("_", " ")}`);
+      say(chips[k].text, doing(one, k));
     });
+    mark(byId("stage"), "aria-label", `The scene from the side. ${frame.c.map(doing).join("; ")}`);
   });
 
   function speed(factor) {

@@ -143,6 +143,29 @@ function dashed(ctx, x, y, to, paint) {
   ctx.setLineDash([]);
 }
 
+/** Where centre of mass and reference have been in the last second or so. */
+export function ways(ctx, view, path, on) {
+  const { camera, ratio } = view;
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  ctx.lineWidth = 1.5;
+  ctx.lineJoin = "round";
+  const way = (name, place) => {
+    ctx.strokeStyle = colour(name);
+    ctx.globalAlpha = 0.6;
+    ctx.beginPath();
+    let pen = false;
+    for (const old of path) {
+      const at = place(old);
+      if (at) ctx[pen ? "lineTo" : "moveTo"](...camera.toScreen(...at));
+      pen = at !== null;
+    }
+    ctx.stroke();
+    ctx.globalAlpha = 1;
+  };
+  if (on.com) way("com", (old) => old.com);
+  if (on.reference) way("reference", (old) => (old.reference === null ? null : [old.reference, old.com[1]]));
+}
+
 /** Marks of one character of a frame; `on` tells which toggles are set. */
 export function marks(ctx, view, one, on) {
   const { camera, ratio } = view;

@@ -8,6 +8,11 @@ import { unwrap } from "./words.js";
 
 const SPAN = 8; // s that a plot shows
 const EVERY = 100; // ms
+const MOST = 4; // features
+const PAINTS = ["accent", "com", "support", "capture"];
+// Columns of the trace.
+const FEATURES = 6;
+const TORQUES = FEATURES + MOST;
 
 export function makePlots(state, tabs) {
   const trace = new Trace(SPAN + 1);
@@ -35,8 +40,8 @@ export function makePlots(state, tabs) {
   state.on("frame", (frame) => {
     const one = frame.c[state.character];
     trace.add(frame.t, [
-      one.com[0], one.cop, one.capture, one.support?.[0] ?? null, one.support?.[1] ?? null,
-      frame.watch?.[0] ?? null, ...one.torque,
+      one.com[0], one.cop, one.capture, one.support?.[0] ?? null, one.support?.[1] ?? null, one.reference,
+      ...PAINTS.map((_, k) => frame.watch?.[k] ?? null), ...one.torque,
     ]);
   });
   state.on("texts", () => {
@@ -54,16 +59,17 @@ export function makePlots(state, tabs) {
   feature.addEventListener("change", watch);
   feature.addEventListener("input", watch);
 
-  /** Asks for the feature, if the session knows its name. */
+  /** Asks for the features that the session knows by these names. */
   function watch() {
-    const name = feature.value.trim();
-    const good = known().some((one) => one.name === name);
-    feature.setAttribute("aria-invalid", String(!good));
-    if (!good || name === watched || !state.connected) return;
-    watched = name;
-    trace.forget(5);
+    const words = feature.value.split(/[\s,]+/).filter(Boolean);
+    const names = words.filter((word) => known().some((one) => one.name === word)).slice(0, MOST);
+    feature.setAttribute("aria-invalid", String(names.length < words.length));
+    if (names.length === 0 || names.join() === watched || !state.connected) return;
+    watched = names.join();
+    PAINTS.forEach((_, k) => trace.forget(FEATURES + k));
+    byId("feature-key").replaceChildren(...names.map((name, k) => make("span", { data: { colour: PAINTS[k] } }, name)));
     stale = true;
-    state.send({ do: "watch", features: [name] });
+    state.send({ do: "watch", features: names });
   }
 
   const line = (label, name, more = {}) => ({ label, stroke: colour(name), width: 1.8, spanGaps: false, points: { show: false }, ...more });
@@ -91,11 +97,11 @@ export function makePlots(state, tabs) {
     const edge = { width: 1, dash: [5, 4] };
     plots = [
       plot("plot-balance", [
-        line("centre of mass", "com"), line("centre of pressure", "cop"), line("capture point", "capture"),
+        line("centre of mass", "com"), line("centre of pressure", "cop"), line("capture point", "capture"), line("reference", "reference", { width: 1.2 }),
         line("rear", "support", { width: 1 }), line("front", "support", { width: 1 }),
-      ], { bands: [{ series: [5, 4], fill: clear(colour("support"), 0.14) }] }),
+      ], { bands: [{ series: [6, 5], fill: clear(colour("support"), 0.14) }] }),
       plot("plot-torque", [line("torque, N·m", "accent"), line("limit", "bad", edge), line("", "bad", edge)], { y: { range: [-reach, reach] } }),
-      plot("plot-feature", [line(watched || "feature", "accent")]),
+      plot("plot-feature", watched.split(",").map((name, k) => line(name, PAINTS[k]))),
     ];
   }
 
@@ -105,9 +111,9 @@ export function makePlots(state, tabs) {
     if (plots.length === 0) return;
     const limit = state.body().joints[jointPlace()]?.torque ?? 1;
     const { t } = trace;
-    plots[0].setData([t, trace.of(0), trace.of(1), trace.of(2), trace.of(3), trace.of(4)]);
-    plots[1].setData([t, trace.of(6 + jointPlace()), t.map(() => limit), t.map(() => -limit)]);
-    plots[2].setData([t, trace.of(5)]);
+    plots[0].setData([t, ...[0, 1, 2, 5, 3, 4].map((k) => trace.of(k))]);
+    plots[1].setData([t, trace.of(TORQUES + jointPlace()), t.map(() => limit), t.map(() => -limit)]);
+    plots[2].setData([t, ...watched.split(",").map((_, k) => trace.of(FEATURES + k))]);
   }
 
   tabs.on("plots", () => { stale = true; draw(); });

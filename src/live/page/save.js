@@ -27,10 +27,12 @@ export function makeSave(state, stage, timeline, connection, told) {
   });
 
   /** The bytes of a save, from wherever the session is. */
-  async function bytes(name) {
+  async function bytes(name, stretch = null) {
     if (!connection().worker) {
-      const answer = await fetch(new URL(`save/${name}`, location.href.split("#")[0]));
-      if (!answer.ok) throw new Error(`${name}: the server says ${answer.status}`);
+      const address = new URL(`save/${name}`, location.href.split("#")[0]);
+      if (stretch) address.search = new URLSearchParams({ from: stretch[0], to: stretch[1] });
+      const answer = await fetch(address);
+      if (!answer.ok) throw new Error((await answer.text()).slice(0, 300) || `${name}: the server says ${answer.status}`);
       return new Uint8Array(await answer.arrayBuffer());
     }
     return new Promise((good, bad) => {
@@ -51,20 +53,11 @@ export function makeSave(state, stage, timeline, connection, told) {
 
   async function save(name, stretch) {
     try {
-      if (connection().worker) {
-        hand(name, new Blob([await bytes(name)]));
-        return;
-      }
-      // The browser shows how far a long download is; so it fetches it itself.
-      const address = new URL(`save/${name}`, location.href.split("#")[0]);
-      if (stretch) {
-        const [from, to] = timeline.visible();
-        address.searchParams.set("from", from);
-        address.searchParams.set("to", to);
-      }
-      make("a", { href: address.href, download: name }).click();
+      if (stretch) told.note(true, `Drawing ${name} …`, name);
+      hand(name, new Blob([await bytes(name, stretch ? timeline.visible() : null)]));
+      if (stretch) told.note(true, `${name} is ready.`, name);
     } catch (error) {
-      told.note(false, error.message);
+      told.note(false, error.message, name);
     }
   }
 
@@ -100,6 +93,7 @@ export function makeSave(state, stage, timeline, connection, told) {
   state.on("hello", (hello) => {
     for (const [id] of PART) show(byId(`save-${id}`), hello.native);
     if (byId("save-webm")) show(byId("save-webm"), !hello.native);
+    byId("save-part-title").textContent = hello.native ? "What the timeline shows" : "A film";
   });
   state.on("texts", () => {
     if (byId("panel-save").hidden) return;

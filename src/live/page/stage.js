@@ -5,10 +5,11 @@ import { byId } from "./dom.js";
 import { colour, refresh } from "./look.js";
 import { boxOf } from "./camera.js";
 import { pathsOf, figure, ghost, shadows, prop } from "./body.js";
-import { marks } from "./marks.js";
+import { marks, ways } from "./marks.js";
 
 const TRAIL_EVERY = 0.12; // s of the run
 const TRAIL_LENGTH = 8;
+const PATH_FOR = 1.5; // s
 
 export function makeStage(state, camera, on) {
   const canvas = byId("stage");
@@ -17,6 +18,7 @@ export function makeStage(state, camera, on) {
   const overlays = [];
   let paths = [];
   let trail = [];
+  let path = [];
   let stale = true;
   let before = performance.now();
 
@@ -44,6 +46,7 @@ export function makeStage(state, camera, on) {
   state.on("hello", (hello) => {
     paths = pathsOf(hello);
     trail = [];
+    path = [];
     camera.jump();
     stale = true;
   });
@@ -57,6 +60,8 @@ export function makeStage(state, camera, on) {
   /** Keeps poses of the last second or so; a seek makes those that are not before it go. */
   function remember(frame) {
     trail = trail.filter((old) => old.t < frame.t && old.t > frame.t - TRAIL_EVERY * (TRAIL_LENGTH + 1));
+    path = path.filter((old) => old.t < frame.t && old.t > frame.t - PATH_FOR);
+    path.push({ t: frame.t, c: frame.c.map(({ com, reference }) => ({ com, reference })) });
     const last = trail[trail.length - 1];
     if (!last || frame.t - last.t >= TRAIL_EVERY) trail.push({ t: frame.t, poses: frame.c.map((one) => one.l) });
     if (trail.length > TRAIL_LENGTH) trail.shift();
@@ -91,7 +96,10 @@ export function makeStage(state, camera, on) {
       const lit = stage.lit?.character === k ? stage.lit.link : -1;
       figure(ctx, view, hello.characters[k], frame.c[k].l, paths[k], k, lit);
     }
-    frame.c.forEach((one) => marks(ctx, view, one, on));
+    frame.c.forEach((one, k) => {
+      ways(ctx, view, path.map((old) => old.c[k]), on);
+      marks(ctx, view, one, on);
+    });
     ctx.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
     if (on.props) names(frame, props);
     for (const overlay of overlays) overlay(ctx, view);

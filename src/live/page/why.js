@@ -83,6 +83,7 @@ export function makeWhy(state, drive, tabs) {
   }
 
   function fill() {
+    if (byId("panel-why").hidden) return;
     const events = state.events.filter((one) => one.kind !== "release");
     const from = Math.max(0, events.length - MOST_EVENTS);
     byId("events-list").replaceChildren(...events.slice(from).map((event, k) => make("li", {},
@@ -90,5 +91,5 @@ export function makeWhy(state, drive, tabs) {
         make("span", { class: "number soft" }, event.t.toFixed(3)), make("span", {}, eventText(event))))));
   }
 
-  return { explain, before, after, refresh: () => { shown = undefined; update(); } };
+  return { explain, before, after, refresh: () => { shown = undefined; fill(); update(); } };
 }

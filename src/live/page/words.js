@@ -53,6 +53,7 @@ export function onGauge(node, value) {
 /** "is 0.88, 0.07 too low". */
 export function missed(node, value) {
   if (value === null || value === undefined) return "";
+  if (node.learned) return `score ${short(value, 2)}`;
   const [min, max] = bounds(node);
   if (min !== null && value < min) return `is ${short(value, 2)}, ${short(min - value, 2)} too low`;
   if (max !== null && value > max) return `is ${short(value, 2)}, ${short(value - max, 2)} too high`;
