@@ -3,9 +3,23 @@
 
 import { colour, mix, tone, clear } from "./look.js";
 
-/** Outlines as paths, once a hello. */
+/** Outlines and lines as paths, in layers from back to front, once a hello. */
 export function pathsOf(hello) {
-  return hello.characters.map((character) => character.figure.map((part) => outline(part.outline)));
+  return hello.characters.map((character) => {
+    const layers = [];
+    character.figure.forEach((part, k) => {
+      const number = part.layer ?? k;
+      if (layers[layers.length - 1]?.number !== number) layers.push({ number, parts: [] });
+      layers[layers.length - 1].parts.push({ ...part, path: outline(part.outline), lines: strokes(part.lines ?? []) });
+    });
+    return layers;
+  });
+}
+
+function strokes(lines) {
+  const path = new Path2D();
+  for (const line of lines) line.forEach(([x, y], k) => (k === 0 ? path.moveTo(x, y) : path.lineTo(x, y)));
+  return path;
 }
 
 function outline(points) {
@@ -25,30 +39,45 @@ function into(ctx, view, x, y, angle) {
   ctx.setTransform(c, -n, -n, -c, px * ratio, py * ratio);
 }
 
-export function figure(ctx, view, character, poses, paths, place, lit) {
-  const thin = 1.1 / view.camera.scale;
-  ctx.lineJoin = "round";
-  character.figure.forEach((part, k) => {
-    const i = 3 * part.link;
-    into(ctx, view, poses[i], poses[i + 1], poses[i + 2]);
-    const { fill, edge } = tone(part.tone, part.far, place);
-    ctx.fillStyle = fill;
-    ctx.fill(paths[k]);
-    ctx.lineWidth = part.link === lit ? 3 * thin : thin;
-    ctx.strokeStyle = part.link === lit ? colour("pull") : edge;
-    ctx.stroke(paths[k]);
-  });
+/** Parts of a layer have one edge around them all: edges first, then what is within. */
+export function figure(ctx, view, layers, poses, place, lit) {
+  const thin = 1 / view.camera.scale;
+  const to = ({ link }) => into(ctx, view, poses[3 * link], poses[3 * link + 1], poses[3 * link + 2]);
+  ctx.lineJoin = ctx.lineCap = "round";
+  for (const { parts } of layers) {
+    ctx.lineWidth = 2.6 * thin;
+    for (const part of parts) {
+      to(part);
+      ctx.strokeStyle = tone(part.tone, part.far, place).edge;
+      ctx.stroke(part.path);
+    }
+    ctx.lineWidth = 1.1 * thin;
+    for (const part of parts) {
+      to(part);
+      const { fill, edge } = tone(part.tone, part.far, place);
+      ctx.fillStyle = fill;
+      ctx.fill(part.path);
+      ctx.strokeStyle = edge;
+      ctx.stroke(part.lines);
+    }
+  }
+  ctx.strokeStyle = colour("pull");
+  ctx.lineWidth = 2.5 * thin;
+  for (const part of layers.flatMap((layer) => layer.parts)) {
+    if (part.link !== lit) continue;
+    to(part);
+    ctx.stroke(part.path);
+  }
 }
 
 /** A past pose in one colour, `age` 0 (now) to 1 (about to vanish). */
-export function ghost(ctx, view, character, poses, paths, age) {
+export function ghost(ctx, view, layers, poses, age) {
   const sky = colour("sky-low");
   ctx.fillStyle = mix(mix(sky, colour("soft"), 0.26), sky, age);
-  character.figure.forEach((part, k) => {
-    const i = 3 * part.link;
-    into(ctx, view, poses[i], poses[i + 1], poses[i + 2]);
-    ctx.fill(paths[k]);
-  });
+  for (const { link, path } of layers.flatMap((layer) => layer.parts)) {
+    into(ctx, view, poses[3 * link], poses[3 * link + 1], poses[3 * link + 2]);
+    ctx.fill(path);
+  }
 }
 
 /** Soft shadows on the ground, darker where a link is near it. */

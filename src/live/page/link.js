@@ -2,8 +2,7 @@
 // Whoever opens it runs the same; nothing is stored anywhere.
 
 import { byId, show } from "./dom.js";
-
-const MOST = 64 * 1024 - 512; // bytes of text
+import { MOST_TEXT } from "./scene.js";
 
 export function makeLink(state, save, scene, told) {
   byId("save-link").addEventListener("click", async () => {
@@ -61,7 +60,7 @@ async function through(bytes, stream, most) {
 }
 
 export async function pack(text) {
-  const bytes = await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw"), MOST);
+  const bytes = await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw"), MOST_TEXT);
   let letters = "";
   for (const byte of bytes) letters += String.fromCharCode(byte);
   return btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
@@ -69,5 +68,5 @@ export async function pack(text) {
 
 export async function unpack(letters) {
   const bytes = Uint8Array.from(atob(letters.replaceAll("-", "+").replaceAll("_", "/")), (one) => one.charCodeAt(0));
-  return new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"), MOST));
+  return new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"), MOST_TEXT));
 }

@@ -10,6 +10,7 @@ export const IMPULSE_PER_METRE = 120; // N·s
 const SPEED_PER_METRE = 6; // m/s
 const SMALLEST_PUSH = 1; // N·s
 const MOST_PUSH = 1000; // N·s
+const MOST_SPEED = 50; // m/s each way
 const SIZES = { ball: "0.12", crate: "0.2" };
 
 export function makePointer(state, stage, camera) {
@@ -38,7 +39,7 @@ export function makePointer(state, stage, camera) {
     show(byId("push-options"), tool === "push");
     if (throws) {
       byId("throw-size").value = SIZES[tool];
-      byId("throw-size-name").textContent = tool === "ball" ? "Radius, m" : "Half side, m";
+      byId("throw-size-name").textContent = tool === "ball" ? "radius, m" : "half side, m";
     }
     canvas.style.cursor = tool === "pan" ? "grab" : tool === "drag" ? "default" : "crosshair";
     light(null);
@@ -67,7 +68,8 @@ export function makePointer(state, stage, camera) {
       if (found?.character === undefined) return false;
       held = { tool, found, from, to: from };
     } else {
-      held = { tool, from, to: from };
+      // Not in the ground.
+      held = { tool, from: [from[0], Math.max(from[1], wares().size)], to: from };
     }
     light(held.found ?? null);
     stage.touch();
@@ -131,7 +133,7 @@ export function makePointer(state, stage, camera) {
 
   const velocityOf = ({ from, to }) => rounded(from.map((v, k) => {
     const moved = to[k] - v;
-    return Math.abs(moved) * camera.scale < 4 ? 0 : moved * SPEED_PER_METRE;
+    return Math.abs(moved) * camera.scale < 4 ? 0 : Math.min(MOST_SPEED, Math.max(-MOST_SPEED, moved * SPEED_PER_METRE));
   }));
 
   stage.overlay((ctx) => {

@@ -3,7 +3,8 @@
 
 import { byId, make, say, show, short, seldom } from "./dom.js";
 
-const MOST_TEXT = 64 * 1024 - 512; // bytes of an `open`
+/** Bytes of text that an `open` may hold. */
+export const MOST_TEXT = 511 * 1024;
 
 export function makeScene(state, told) {
   const lists = { scenario: "scenarios", character: "characters", repertoire: "repertoires" };
@@ -66,7 +67,7 @@ export function makeScene(state, told) {
   async function take(file) {
     if (!file) return;
     if (file.size > MOST_TEXT) {
-      told.note(false, `${file.name} has more than 64 kB; it is not a scenario, character or repertoire.`);
+      told.note(false, `${file.name} has more than 500 kB; it is not a scenario, character or repertoire.`);
       return;
     }
     open(file.name, await file.text());

@@ -16,7 +16,7 @@ export function makeStage(state, camera, on) {
   const ctx = canvas.getContext("2d");
   const view = { camera, ratio: 1 };
   const overlays = [];
-  let paths = [];
+  let layers = [];
   let trail = [];
   let path = [];
   let stale = true;
@@ -44,7 +44,7 @@ export function makeStage(state, camera, on) {
   new ResizeObserver(resize).observe(canvas);
 
   state.on("hello", (hello) => {
-    paths = pathsOf(hello);
+    layers = pathsOf(hello);
     trail = [];
     path = [];
     camera.jump();
@@ -84,7 +84,7 @@ export function makeStage(state, camera, on) {
     if (on.trail) {
       for (const old of trail) {
         const age = Math.min(1, (frame.t - old.t) / (TRAIL_EVERY * (TRAIL_LENGTH + 1)));
-        old.poses.forEach((poses, k) => ghost(ctx, view, hello.characters[k], poses, paths[k], age));
+        old.poses.forEach((poses, k) => ghost(ctx, view, layers[k], poses, age));
       }
     }
     frame.c.forEach((one, k) => shadows(ctx, view, hello.characters[k], one.l));
@@ -94,7 +94,7 @@ export function makeStage(state, camera, on) {
     });
     for (let k = frame.c.length - 1; k >= 0; k--) {
       const lit = stage.lit?.character === k ? stage.lit.link : -1;
-      figure(ctx, view, hello.characters[k], frame.c[k].l, paths[k], k, lit);
+      figure(ctx, view, layers[k], frame.c[k].l, k, lit);
     }
     frame.c.forEach((one, k) => {
       ways(ctx, view, path.map((old) => old.c[k]), on);

@@ -62,10 +62,11 @@ export function makeWhy(state, drive, tabs) {
 
   function bidders(event) {
     const pool = state.body().controllers;
-    const most = Math.max(1, ...event.bids.map((one) => one[1]));
-    const offers = event.bids.filter((one) => one[2] === null).sort((a, b) => b[1] - a[1]);
-    const waits = event.bids.filter((one) => one[2] !== null && /only on command/.test(one[2]));
-    const refusals = event.bids.filter((one) => one[2] !== null && !waits.includes(one));
+    const bids = event.bids ?? [];
+    const most = Math.max(1, ...bids.map((one) => one[1]));
+    const offers = bids.filter((one) => one[2] === null).sort((a, b) => b[1] - a[1]);
+    const waits = bids.filter((one) => one[2] !== null && /only on command/.test(one[2]));
+    const refusals = bids.filter((one) => one[2] !== null && !waits.includes(one));
     const row = ([name, amount, refusal]) => {
       const dot = make("span", { class: "dot" });
       dot.style.background = band(Math.max(0, pool.findIndex((one) => one.name === name)));
