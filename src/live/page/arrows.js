@@ -4,8 +4,11 @@
 import { colour, clear } from "./look.js";
 import { arrow } from "./marks.js";
 
+/** What a metre of arrow pushes with, N·s. */
+export const IMPULSE_PER_METRE = 120;
+
 /** A label that stays on the stage, beside or above a point so that a finger doesn't cover it. */
-export function label(ctx, camera, x, y, text, paint) {
+function label(ctx, camera, x, y, text, paint) {
   ctx.font = "600 14px system-ui, sans-serif";
   const wide = ctx.measureText(text).width + 18;
   const left = Math.min(Math.max(x - wide / 2, 6), camera.width - wide - 6);
@@ -45,7 +48,10 @@ export function drawSpring(ctx, camera, from, to, force) {
   ctx.lineTo(tx, ty);
   ctx.stroke();
   ctx.fillStyle = paint;
-  for (const [px, py, r] of [[x, y, 4], [tx, ty, 6]]) {
+  for (const [px, py, r] of [
+    [x, y, 4],
+    [tx, ty, 6],
+  ]) {
     ctx.beginPath();
     ctx.arc(px, py, r, 0, 2 * Math.PI);
     ctx.fill();
@@ -55,7 +61,7 @@ export function drawSpring(ctx, camera, from, to, force) {
 
 export function drawPush(ctx, camera, from, impulse, link) {
   const [x, y] = camera.toScreen(...from);
-  const per = camera.scale / 120;
+  const per = camera.scale / IMPULSE_PER_METRE;
   const [dx, dy] = [impulse[0] * per, -impulse[1] * per];
   const paint = colour("com");
   ctx.fillStyle = paint;
@@ -91,5 +97,12 @@ export function drawThrow(ctx, camera, shape, { mass, size }, from, to, velocity
   const [tx, ty] = camera.toScreen(...to);
   arrow(ctx, x, y, tx - x, ty - y, colour("pull"), 3);
   const speed = Math.hypot(...velocity);
-  label(ctx, camera, tx, ty, speed > 0 ? `${mass} kg, ${speed.toFixed(1)} m/s` : `${mass} kg, let go here`, paint);
+  label(
+    ctx,
+    camera,
+    tx,
+    ty,
+    speed > 0 ? `${mass} kg, ${speed.toFixed(1)} m/s` : `${mass} kg, let go here`,
+    paint,
+  );
 }

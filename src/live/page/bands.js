@@ -27,14 +27,47 @@ const cross = (ctx, x, y) => {
   ctx.lineTo(x - 4, y + 4);
   ctx.stroke();
 };
-const disc = (ctx, x, y) => { ctx.arc(x, y, 4.5, 0, 2 * Math.PI); ctx.fill(); };
-const ring = (ctx, x, y) => { ctx.arc(x, y, 4, 0, 2 * Math.PI); ctx.stroke(); };
-const diamond = shape([[0, -6], [6, 0], [0, 6], [-6, 0]]);
-const right = shape([[-5, -5], [6, 0], [-5, 5]]);
-const down = shape([[-6, -4], [6, -4], [0, 6]]);
-const up = shape([[-6, 5], [6, 5], [0, -5]]);
-const square = shape([[-4, -4], [4, -4], [4, 4], [-4, 4]]);
-const stroke = shape([[-1, -8], [1, -8], [1, 8], [-1, 8]]);
+const disc = (ctx, x, y) => {
+  ctx.arc(x, y, 4.5, 0, 2 * Math.PI);
+  ctx.fill();
+};
+const ring = (ctx, x, y) => {
+  ctx.arc(x, y, 4, 0, 2 * Math.PI);
+  ctx.stroke();
+};
+const diamond = shape([
+  [0, -6],
+  [6, 0],
+  [0, 6],
+  [-6, 0],
+]);
+const right = shape([
+  [-5, -5],
+  [6, 0],
+  [-5, 5],
+]);
+const down = shape([
+  [-6, -4],
+  [6, -4],
+  [0, 6],
+]);
+const up = shape([
+  [-6, 5],
+  [6, 5],
+  [0, -5],
+]);
+const square = shape([
+  [-4, -4],
+  [4, -4],
+  [4, 4],
+  [-4, 4],
+]);
+const stroke = shape([
+  [-1, -8],
+  [1, -8],
+  [1, 8],
+  [-1, 8],
+]);
 
 const SYMBOLS = {
   push: { draw: right, colour: "com" },

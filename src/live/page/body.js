@@ -10,7 +10,11 @@ export function pathsOf(hello) {
     character.figure.forEach((part, k) => {
       const number = part.layer ?? k;
       if (layers[layers.length - 1]?.number !== number) layers.push({ number, parts: [] });
-      layers[layers.length - 1].parts.push({ ...part, path: outline(part.outline), lines: strokes(part.lines ?? []) });
+      layers[layers.length - 1].parts.push({
+        ...part,
+        path: outline(part.outline),
+        lines: strokes(part.lines ?? []),
+      });
     });
     return layers;
   });
@@ -113,7 +117,9 @@ function shadow(ctx, view, x, half, low) {
 
 export function prop(ctx, view, what, x, y, angle, lit) {
   const round = what.radius !== undefined;
-  const reach = round ? what.radius : Math.max(...what.outline.map(([a, b]) => Math.max(Math.abs(a), Math.abs(b))));
+  const reach = round
+    ? what.radius
+    : Math.max(...what.outline.map(([a, b]) => Math.max(Math.abs(a), Math.abs(b))));
   shadow(ctx, view, x, reach, y - reach);
   into(ctx, view, x, y, angle);
   const fill = colour(round ? "ball" : "prop");

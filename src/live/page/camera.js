@@ -1,7 +1,8 @@
 // Where the stage looks: world (m, y up) ⇄ stage (CSS pixels, y down). It follows characters and
 // props smoothly, until somebody pans; zooming is a factor on top of what it chooses itself.
 
-const MARGIN = { left: 30, right: 30, top: 66, bottom: 74 };
+const MARGIN = { left: 30, right: 30, top: 66, bottom: 74, low: 52 }; // px; `low` is the bottom of a low stage
+const LOW_STAGE = 300; // px
 const WIDEST = 14; // m that it shows at most by itself
 const NEAR = 5; // m from a character within which a prop is kept in view
 const RATE = 5; // 1/s, of following
@@ -9,15 +10,26 @@ const HASTE = 16; // 1/s, when something is about to leave the view
 
 export function makeCamera() {
   const camera = {
-    x: 0, y: 0.9, scale: 220, width: 300, height: 300,
-    following: true, zoom: 1,
+    x: 0,
+    y: 0.9,
+    scale: 220,
+    width: 300,
+    height: 300,
+    following: true,
+    zoom: 1,
     resize(width, height) {
       camera.width = width;
       camera.height = height;
       settled = false;
     },
-    toScreen: (x, y) => [(x - camera.x) * camera.scale + camera.width / 2, camera.height / 2 - (y - camera.y) * camera.scale],
-    toWorld: (px, py) => [(px - camera.width / 2) / camera.scale + camera.x, (camera.height / 2 - py) / camera.scale + camera.y],
+    toScreen: (x, y) => [
+      (x - camera.x) * camera.scale + camera.width / 2,
+      camera.height / 2 - (y - camera.y) * camera.scale,
+    ],
+    toWorld: (px, py) => [
+      (px - camera.width / 2) / camera.scale + camera.x,
+      (camera.height / 2 - py) / camera.scale + camera.y,
+    ],
     follow() {
       camera.following = true;
       camera.zoom = 1;
@@ -57,9 +69,13 @@ export function makeCamera() {
     camera.scale *= (goal.scale / camera.scale) ** share;
     camera.x += (goal.x - camera.x) * share;
     camera.y += (goal.y - camera.y) * share;
-    const moved = Math.hypot(camera.x - before[0], camera.y - before[1]) * camera.scale + Math.abs(camera.scale - before[2]);
+    const moved =
+      Math.hypot(camera.x - before[0], camera.y - before[1]) * camera.scale +
+      Math.abs(camera.scale - before[2]);
     return moved > 0.05;
   }
+
+  const bottom = () => (camera.height < LOW_STAGE ? MARGIN.low : MARGIN.bottom);
 
   function leaves(box) {
     if (camera.zoom > 1) return false;
@@ -69,7 +85,9 @@ export function makeCamera() {
   }
 
   function aim(box) {
-    const room = [camera.width - MARGIN.left - MARGIN.right, camera.height - MARGIN.top - MARGIN.bottom].map((v) => Math.max(v, 60));
+    const room = [camera.width - MARGIN.left - MARGIN.right, camera.height - MARGIN.top - bottom()].map(
+      (v) => Math.max(v, 60),
+    );
     const high = Math.max(box.high, 1.9) + 0.1;
     const low = Math.min(box.low, 0);
     const wide = Math.max(box.right - box.left + 0.7, 1.2);
@@ -77,7 +95,7 @@ export function makeCamera() {
     const scale = Math.max(fitting, camera.width / (WIDEST + 2)) * camera.zoom;
     // The ground stays near the lower edge, unless zoomed in on the character.
     const middle = camera.zoom > 1 ? box.middle[1] : null;
-    const grounded = low + (camera.height / 2 - MARGIN.bottom) / scale;
+    const grounded = low + (camera.height / 2 - bottom()) / scale;
     return {
       x: wide > WIDEST || camera.zoom > 1.2 ? box.middle[0] : (box.left + box.right) / 2,
       y: middle === null ? grounded : Math.max(Math.min(middle, grounded), low - 0.2),

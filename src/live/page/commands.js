@@ -24,18 +24,30 @@ export function makeCommands(state) {
   // Buttons: first what happens only on command, which is what somebody wants to ask for.
   function buttons() {
     const pool = state.body()?.controllers ?? [];
-    const own = pool.flatMap((one) => (one.commands ?? []).map((command) => ({ command, weight: one.weight })));
+    const own = pool.flatMap((one) =>
+      (one.commands ?? []).map((command) => ({ command, weight: one.weight })),
+    );
     own.sort((a, b) => (a.weight > 0) - (b.weight > 0));
-    byId("commands").replaceChildren(...own.map(({ command }) => make("button", {
-      data: { command: command.name }, title: hintOf(command),
-      onclick: () => send(command.name),
-    }, command.name)));
+    byId("commands").replaceChildren(
+      ...own.map(({ command }) =>
+        make(
+          "button",
+          {
+            data: { command: command.name },
+            title: hintOf(command),
+            onclick: () => send(command.name),
+          },
+          command.name,
+        ),
+      ),
+    );
   }
   state.on("hello", buttons);
   state.on("character", buttons);
 
   const rangeOf = (one) => `${plain(one.min)} to ${plain(one.max)}, else ${plain(one.default)}`;
-  const hintOf = (command) => ["Command", ...command.parameters.map((one) => `${one.name}: ${rangeOf(one)}`)].join("\n");
+  const hintOf = (command) =>
+    ["Command", ...command.parameters.map((one) => `${one.name}: ${rangeOf(one)}`)].join("\n");
 
   /** What can stand where the cursor is: names for the first word, parameters after it. */
   function complete() {
@@ -43,24 +55,52 @@ export function makeCommands(state) {
     const words = text.split(/\s+/);
     const last = words[words.length - 1];
     if (words.length < 2) {
-      return known().filter((one) => one.name.startsWith(last)).map((one) => ({
-        text: one.name + (one.parameters.length > 0 ? " " : ""), shown: one.name, note: one.parameters.map((p) => p.name).join(", "), last,
-      }));
+      return known()
+        .filter((one) => one.name.startsWith(last))
+        .map((one) => ({
+          text: one.name + (one.parameters.length > 0 ? " " : ""),
+          shown: one.name,
+          note: one.parameters.map((p) => p.name).join(", "),
+          last,
+        }));
     }
     const command = known().find((one) => one.name === words[0]);
     const used = new Set(words.slice(1, -1).map((word) => word.split("=")[0]));
     return (command?.parameters ?? [])
-      .filter((one) => !used.has(one.name) && (one.name.startsWith(last) || last.startsWith(`${one.name}=`)))
-      .map((one) => ({ text: last.includes("=") ? last : `${one.name}=${one.default}`, shown: `${one.name}=`, note: rangeOf(one), last, fixed: last.includes("=") }));
+      .filter(
+        (one) => !used.has(one.name) && (one.name.startsWith(last) || last.startsWith(`${one.name}=`)),
+      )
+      .map((one) => ({
+        text: last.includes("=") ? last : `${one.name}=${one.default}`,
+        shown: `${one.name}=`,
+        note: rangeOf(one),
+        last,
+        fixed: last.includes("="),
+      }));
   }
 
   function suggest() {
     choices = document.activeElement === field ? complete() : [];
     chosen = -1;
-    list.replaceChildren(...choices.map((one, k) => make("li", {
-      id: `completion-${k}`, role: "option", "aria-selected": "false",
-      onpointerdown: (event) => { event.preventDefault(); chosen = k; take(); },
-    }, make("span", {}, one.shown), make("small", {}, one.note))));
+    list.replaceChildren(
+      ...choices.map((one, k) =>
+        make(
+          "li",
+          {
+            id: `completion-${k}`,
+            role: "option",
+            "aria-selected": "false",
+            onpointerdown: (event) => {
+              event.preventDefault();
+              chosen = k;
+              take();
+            },
+          },
+          make("span", {}, one.shown),
+          make("small", {}, one.note),
+        ),
+      ),
+    );
     show(list, choices.length > 0);
     mark(field, "aria-expanded", choices.length > 0);
     field.removeAttribute("aria-activedescendant");
@@ -111,7 +151,13 @@ export function makeCommands(state) {
     } else if (key === "Escape") {
       if (list.hidden) field.blur();
       else close();
-    } else if (key === "Tab" && !event.shiftKey && choices.length > 0 && field.value && !choices[Math.max(chosen, 0)].fixed) {
+    } else if (
+      key === "Tab" &&
+      !event.shiftKey &&
+      choices.length > 0 &&
+      field.value &&
+      !choices[Math.max(chosen, 0)].fixed
+    ) {
       take();
     } else if ((key === "ArrowDown" || key === "ArrowUp") && choices.length > 0 && field.value) {
       choose(chosen < 0 ? (key === "ArrowDown" ? 0 : -1) : chosen + (key === "ArrowDown" ? 1 : -1));
@@ -133,14 +179,26 @@ export function makeCommands(state) {
     const fields = command.parameters.map((one) => {
       const output = make("output", { class: "number" }, short(one.default));
       const input = make("input", {
-        type: "range", min: one.min, max: one.max, step: "any", "aria-label": one.name,
-        oninput: () => { values.set(one.name, Number(Number(input.value).toFixed(3))); output.textContent = short(Number(input.value)); },
+        type: "range",
+        min: one.min,
+        max: one.max,
+        step: "any",
+        "aria-label": one.name,
+        oninput: () => {
+          values.set(one.name, Number(Number(input.value).toFixed(3)));
+          output.textContent = short(Number(input.value));
+        },
       });
       input.value = String(one.default);
       return make("label", { class: "slider" }, make("span", {}, one.name), input, output);
     });
     const text = () => [command.name, ...[...values].map(([name, value]) => `${name}=${value}`)].join(" ");
-    return make("div", { class: "command-form" }, ...fields, make("button", { onclick: () => send(text()) }, `Command: ${command.name}`));
+    return make(
+      "div",
+      { class: "command-form" },
+      ...fields,
+      make("button", { onclick: () => send(text()) }, `Command: ${command.name}`),
+    );
   }
 
   return { send, form };

@@ -20,7 +20,9 @@ export function makeContract(state, command) {
 
   state.on("hello", () => settle());
   state.on("character", () => settle());
-  state.on("connected", (connected) => { if (connected && shown !== null) ask(); });
+  state.on("connected", (connected) => {
+    if (connected && shown !== null) ask();
+  });
 
   /** After a new hello or another character: the same controller if the pool has it. */
   function settle() {
@@ -61,13 +63,28 @@ export function makeContract(state, command) {
     lines = { pre: [], post: [], expected: [] };
     heads = {};
     const title = make("h2", {}, controller.name);
-    const about = [controller.role, `weight ${plain(controller.weight)}`, controller.learned ? "learned boundary" : null];
+    const about = [
+      controller.role,
+      `weight ${plain(controller.weight)}`,
+      controller.learned ? "learned boundary" : null,
+    ];
     box.replaceChildren(
-      make("div", { class: "row" }, title, make("span", { class: "soft" }, about.filter(Boolean).join(" · ")), make("span", { class: "spring" }),
-        make("button", { class: "icon plain", "aria-label": "Close the contract", onclick: close }, icon("close"))),
+      make(
+        "div",
+        { class: "row" },
+        title,
+        make("span", { class: "soft" }, about.filter(Boolean).join(" · ")),
+        make("span", { class: "spring" }),
+        make(
+          "button",
+          { class: "icon plain", "aria-label": "Close the contract", onclick: close },
+          icon("close"),
+        ),
+      ),
       ...PARTS.map(([part, key, heading, none]) => section(part, controller[key], heading, none)),
       patienceOf(controller),
-      ...(controller.commands ?? []).map((one) => command.form(one)));
+      ...(controller.commands ?? []).map((one) => command.form(one)),
+    );
     show(box, true);
     box.scrollTop = 0;
     ask();
@@ -79,7 +96,15 @@ export function makeContract(state, command) {
     if (plain) {
       if (root) lines[part].push({ node: root });
       const never = root?.text === "never" && part !== "post";
-      return make("p", { class: "sentence" }, never ? `${heading}: never.` : root?.text === "always" && part === "post" ? "Has succeeded at once." : none);
+      return make(
+        "p",
+        { class: "sentence" },
+        never
+          ? `${heading}: never.`
+          : root?.text === "always" && part === "post"
+            ? "Has succeeded at once."
+            : none,
+      );
     }
     const state = make("span", { class: "sign", "aria-hidden": "true" });
     heads[part] = state;
@@ -113,8 +138,15 @@ export function makeContract(state, command) {
       return li;
     }
     const children = node.all ?? node.any ?? [node.not];
-    li.append(make("span", { class: "leaf" }, sign, make("span", { class: "text soft" }, node.all ? "all of" : node.any ? "one of" : "not")),
-      make("ul", {}, ...children.map((child) => item(part, child))));
+    li.append(
+      make(
+        "span",
+        { class: "leaf" },
+        sign,
+        make("span", { class: "text soft" }, node.all ? "all of" : node.any ? "one of" : "not"),
+      ),
+      make("ul", {}, ...children.map((child) => item(part, child))),
+    );
     return li;
   }
 
@@ -129,7 +161,8 @@ export function makeContract(state, command) {
 
   function patienceOf(controller) {
     patience = null;
-    if (controller.patience === null || controller.patience === undefined) return make("p", { class: "sentence" }, "Never gives up for want of time.");
+    if (controller.patience === null || controller.patience === undefined)
+      return make("p", { class: "sentence" }, "Never gives up for want of time.");
     const sofar = make("span", { class: "number" });
     patience = { sofar, limit: controller.patience };
     return make("p", { class: "sentence" }, `Gives up after ${plain(controller.patience)} s`, sofar);
@@ -144,7 +177,11 @@ export function makeContract(state, command) {
       lines[part].forEach((line, k) => fillIn(line, states[k] ?? null, fresh));
       if (heads[part] && !lines[part][0].node.all) sign(heads[part], states[0] ?? null);
     }
-    if (patience) say(patience.sofar, fresh && fresh.elapsed !== null ? `; ${fresh.elapsed.toFixed(1)} s so far.` : ".");
+    if (patience)
+      say(
+        patience.sofar,
+        fresh && fresh.elapsed !== null ? `; ${fresh.elapsed.toFixed(1)} s so far.` : ".",
+      );
   }
 
   function sign(node, now) {
@@ -157,9 +194,14 @@ export function makeContract(state, command) {
     if (line.item) mark(line.item, "data-holds", now === null ? "unknown" : now[0] === 1);
     if (!line.value) return;
     const value = now?.[1] ?? null;
-    const chance = line.node.learned && fresh?.probability !== null && fresh?.probability !== undefined
-      ? `, probability ${Math.round(100 * fresh.probability)} %` : "";
-    say(line.value, value === null ? "" : line.node.learned ? `score ${short(value)}${chance}` : short(value));
+    const chance =
+      line.node.learned && fresh?.probability !== null && fresh?.probability !== undefined
+        ? `, probability ${Math.round(100 * fresh.probability)} %`
+        : "";
+    say(
+      line.value,
+      value === null ? "" : line.node.learned ? `score ${short(value)}${chance}` : short(value),
+    );
     const at = onGauge(line.node, value);
     if (at !== null) place(line.dot, "left", at);
     line.dot.hidden = at === null;

@@ -50,7 +50,8 @@ export function place(node, property, percent) {
 export function short(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "no value";
   const size = Math.abs(value);
-  const places = size >= 100 ? 0 : size >= 10 ? Math.min(1, digits) : size >= 1 ? Math.min(2, digits) : digits;
+  const places =
+    size >= 100 ? 0 : size >= 10 ? Math.min(1, digits) : size >= 1 ? Math.min(2, digits) : digits;
   return value.toFixed(places).replace("-", "−");
 }
 
@@ -64,7 +65,10 @@ export function seldom(wait, act) {
   return (...values) => {
     clearTimeout(timer);
     const due = last + wait - performance.now();
-    const now = () => { last = performance.now(); act(...values); };
+    const now = () => {
+      last = performance.now();
+      act(...values);
+    };
     if (due <= 0) now();
     else timer = setTimeout(now, due);
   };

@@ -3,7 +3,7 @@
 import { byId, make, say, mark, show } from "./dom.js";
 import { band } from "./look.js";
 
-export const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4];
+const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4];
 
 export function makeDrive(state) {
   const select = byId("speed");
@@ -26,7 +26,8 @@ export function makeDrive(state) {
     /** `by` −1 slower, 1 faster. */
     faster(by) {
       const now = state.frame?.speed ?? 1;
-      const next = by > 0 ? SPEEDS.find((one) => one > now + 1e-6) : SPEEDS.findLast((one) => one < now - 1e-6);
+      const next =
+        by > 0 ? SPEEDS.find((one) => one > now + 1e-6) : SPEEDS.findLast((one) => one < now - 1e-6);
       if (next !== undefined) state.send({ do: "speed", factor: next });
     },
   };
@@ -43,12 +44,14 @@ export function makeDrive(state) {
     say(byId("scene-name"), `${hello.scenario.name} · ${names}`);
     document.title = `${hello.scenario.name} – Aplomb`;
     chips.length = 0;
-    byId("now").replaceChildren(...hello.characters.map((_, k) => {
-      const dot = make("i", { class: "dot" });
-      const text = make("b", {});
-      chips.push({ dot, text });
-      return make("span", { data: { character: k } }, dot, text);
-    }));
+    byId("now").replaceChildren(
+      ...hello.characters.map((_, k) => {
+        const dot = make("i", { class: "dot" });
+        const text = make("b", {});
+        chips.push({ dot, text });
+        return make("span", { data: { character: k } }, dot, text);
+      }),
+    );
   });
 
   /** "balance · standing"; with the character's number if there are several. */
@@ -72,7 +75,8 @@ export function makeDrive(state) {
     mark(byId("dropped"), "data-some", frame.dropped > 0);
     frame.c.forEach((one, k) => {
       const colour = band(one.active);
-      if (chips[k].dot.dataset.colour !== colour) chips[k].dot.style.background = chips[k].dot.dataset.colour = colour;
+      if (chips[k].dot.dataset.colour !== colour)
+        chips[k].dot.style.background = chips[k].dot.dataset.colour = colour;
       say(chips[k].text, doing(one, k));
     });
     mark(byId("stage"), "aria-label", `The scene from the side. ${frame.c.map(doing).join("; ")}`);
@@ -81,7 +85,8 @@ export function makeDrive(state) {
   function speed(factor) {
     const text = String(factor);
     if (select.value === text) return;
-    if (![...select.options].some((one) => one.value === text)) select.append(make("option", { value: text }, `${text}×`));
+    if (![...select.options].some((one) => one.value === text))
+      select.append(make("option", { value: text }, `${text}×`));
     select.value = text;
   }
 

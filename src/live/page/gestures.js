@@ -3,10 +3,13 @@
 
 import { byId, mark } from "./dom.js";
 
+const STILL = 5; // px: a touch that moves less moves nothing
+
 export function makeGestures(stage, camera, pointer) {
   const { canvas } = stage;
   const down = new Map(); // pointers that are down: id → [x, y]
   let mode = null; // "tool", "pan" or "pinch"
+  let rest = STILL; // px that it must still move before the view does
 
   const at = (event) => {
     const box = canvas.getBoundingClientRect();
@@ -24,6 +27,7 @@ export function makeGestures(stage, camera, pointer) {
     } else if (down.size === 1) {
       const looks = event.shiftKey || event.button === 1;
       mode = !looks && pointer.begin(event) ? "tool" : "pan";
+      rest = STILL;
       if (mode === "pan") canvas.style.cursor = "grabbing";
     }
     event.preventDefault();
@@ -37,6 +41,8 @@ export function makeGestures(stage, camera, pointer) {
     }
     const now = at(event);
     if (mode === "pan") {
+      rest -= Math.hypot(now[0] - old[0], now[1] - old[1]);
+      if (rest > 0) return;
       camera.pan(now[0] - old[0], now[1] - old[1]);
     } else if (mode === "pinch" && down.size === 2) {
       camera.pan(0, 0);
@@ -58,18 +64,24 @@ export function makeGestures(stage, camera, pointer) {
     }
     if (down.size === 0 || mode === "tool") mode = null;
     else mode = "pan";
-    if (mode === null) canvas.style.cursor = pointer.tool === "pan" ? "grab" : pointer.tool === "drag" ? "default" : "crosshair";
+    if (mode === null)
+      canvas.style.cursor =
+        pointer.tool === "pan" ? "grab" : pointer.tool === "drag" ? "default" : "crosshair";
   }
   canvas.addEventListener("pointerup", up);
   canvas.addEventListener("pointercancel", up);
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
 
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    const lines = event.deltaMode === 1 ? 16 : 1;
-    camera.zoomAt(...at(event), Math.exp(-event.deltaY * lines * 0.0015));
-    changed();
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      const lines = event.deltaMode === 1 ? 16 : 1;
+      camera.zoomAt(...at(event), Math.exp(-event.deltaY * lines * 0.0015));
+      changed();
+    },
+    { passive: false },
+  );
 
   function changed() {
     mark(byId("follow"), "aria-pressed", camera.following);

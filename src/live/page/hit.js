@@ -18,13 +18,19 @@ export function bodyAt(state, x, y, slop) {
     links.forEach((link, k) => {
       const point = local(x, y, one.l, k);
       const gap = toLine(point, link.grab) - link.radius;
-      take(gap, 1 + figure.findLastIndex((part) => part.link === k), { character, link: k, name: link.name, point });
+      take(gap, 1 + figure.findLastIndex((part) => part.link === k), {
+        character,
+        link: k,
+        name: link.name,
+        point,
+      });
     });
   });
   props.forEach((prop, k) => {
     if (3 * k + 2 >= frame.p.length) return;
     const point = local(x, y, frame.p, k);
-    const gap = prop.radius !== undefined ? Math.hypot(...point) - prop.radius : toOutline(point, prop.outline);
+    const gap =
+      prop.radius !== undefined ? Math.hypot(...point) - prop.radius : toOutline(point, prop.outline);
     take(gap, 0, { prop: prop.name, place: k, point });
   });
   return best;

@@ -15,17 +15,25 @@ export function makeKeys(state, act) {
     told();
     act.note(true, `Arrow keys push with ${slider.value} N·s`, "strength");
   };
-  const told = () => { byId("strength-text").textContent = `${slider.value} N·s`; };
+  const told = () => {
+    byId("strength-text").textContent = `${slider.value} N·s`;
+  };
   slider.addEventListener("input", told);
   byId("push-left").addEventListener("click", () => push(-1));
   byId("push-right").addEventListener("click", () => push(1));
 
   function push(way) {
     const link = trunk();
-    if (link) state.send({ do: "push", character: state.character, link, impulse: [way * Number(slider.value), 0] });
+    if (link)
+      state.send({
+        do: "push",
+        character: state.character,
+        link,
+        impulse: [way * Number(slider.value), 0],
+      });
   }
 
-  /** The torso, or else the heaviest looking link above the root. */
+  /** The torso, or else the first link above the root. */
   function trunk() {
     const names = state.body()?.links.map((one) => one.name) ?? [];
     return names.find((name) => /torso|trunk|chest/.test(name)) ?? names[1] ?? names[0];
@@ -41,7 +49,12 @@ export function makeKeys(state, act) {
     ["→", ["ArrowRight"], "push the trunk to the right", () => push(1)],
     ["+", ["+", "="], "push harder", () => strength(BY)],
     ["−", ["-", "−"], "push more lightly", () => strength(-BY)],
-    ["1 – 5", ["1", "2", "3", "4", "5"], "drag, push, ball, crate, pan", (key) => act.tool(Number(key) - 1)],
+    [
+      "1 – 5",
+      ["1", "2", "3", "4", "5"],
+      "drag, push, ball, crate, pan",
+      (key) => act.tool(Number(key) - 1),
+    ],
     ["e", ["e"], "explain the last switch", act.explain],
     ["p, n", ["p"], "switch before, next switch", act.before],
     [null, ["n"], "", act.after],
@@ -57,7 +70,10 @@ export function makeKeys(state, act) {
   const byKey = new Map(table.flatMap(([, keys, , does]) => keys.map((key) => [key, does])));
 
   for (const [shown, , meaning] of table) {
-    if (shown) byId("keys-list").append(make("div", {}, make("dt", {}, make("kbd", {}, shown)), make("dd", {}, meaning)));
+    if (shown)
+      byId("keys-list").append(
+        make("div", {}, make("dt", {}, make("kbd", {}, shown)), make("dd", {}, meaning)),
+      );
   }
 
   function open() {
@@ -65,17 +81,23 @@ export function makeKeys(state, act) {
   }
   byId("help-open").addEventListener("click", open);
   byId("help-close").addEventListener("click", () => help.close());
-  help.addEventListener("click", (event) => { if (event.target === help) help.close(); });
+  help.addEventListener("click", (event) => {
+    if (event.target === help) help.close();
+  });
 
-  const typing = (node) => node instanceof HTMLElement && (node.isContentEditable || /^(INPUT|TEXTAREA|SELECT)$/.test(node.tagName));
+  const typing = (node) =>
+    node instanceof HTMLElement &&
+    (node.isContentEditable || /^(INPUT|TEXTAREA|SELECT)$/.test(node.tagName));
 
   document.addEventListener("keydown", (event) => {
     if (help.open) {
       if (["h", "?"].includes(event.key)) help.close();
       return;
     }
-    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented || typing(event.target)) return;
-    const onButton = event.target instanceof HTMLElement && event.target.closest("button, a, [role=option]");
+    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented || typing(event.target))
+      return;
+    const onButton =
+      event.target instanceof HTMLElement && event.target.closest("button, a, [role=option]");
     if (onButton && (event.key === " " || event.key === "Enter")) return;
     const does = byKey.get(event.key.length === 1 ? event.key.toLowerCase() : event.key);
     if (!does) return;

@@ -4,7 +4,17 @@
 import { byId, make, mark, show } from "./dom.js";
 import { MARKS, sample } from "./marks.js";
 
-const AT_FIRST = { com: true, support: true, cop: true, capture: true, touch: true, reference: true, trail: true, metres: true, props: false };
+const AT_FIRST = {
+  com: true,
+  support: true,
+  cop: true,
+  capture: true,
+  touch: true,
+  reference: true,
+  trail: true,
+  metres: true,
+  props: false,
+};
 const KEPT = "aplomb.marks";
 
 /** The toggles; the stage reads them each time it draws. */
@@ -15,7 +25,11 @@ export function toggles() {
 function kept() {
   try {
     const found = JSON.parse(localStorage.getItem(KEPT) ?? "{}");
-    return Object.fromEntries(Object.keys(AT_FIRST).filter((name) => typeof found[name] === "boolean").map((name) => [name, found[name]]));
+    return Object.fromEntries(
+      Object.keys(AT_FIRST)
+        .filter((name) => typeof found[name] === "boolean")
+        .map((name) => [name, found[name]]),
+    );
   } catch {
     return {};
   }
@@ -27,7 +41,11 @@ export function makeLegend(on, stage) {
   const samples = new Map();
   for (const [name, meaning] of MARKS) {
     const canvas = make("canvas", { "aria-hidden": "true" });
-    const input = make("input", { type: "checkbox", data: { mark: name }, onchange: () => set(name, input.checked) });
+    const input = make("input", {
+      type: "checkbox",
+      data: { mark: name },
+      onchange: () => set(name, input.checked),
+    });
     input.checked = on[name];
     samples.set(name, canvas);
     box.append(make("label", {}, input, canvas, meaning));

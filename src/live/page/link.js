@@ -60,13 +60,19 @@ async function through(bytes, stream, most) {
 }
 
 export async function pack(text) {
-  const bytes = await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw"), MOST_TEXT);
+  const bytes = await through(
+    new TextEncoder().encode(text),
+    new CompressionStream("deflate-raw"),
+    MOST_TEXT,
+  );
   let letters = "";
   for (const byte of bytes) letters += String.fromCharCode(byte);
   return btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 }
 
 export async function unpack(letters) {
-  const bytes = Uint8Array.from(atob(letters.replaceAll("-", "+").replaceAll("_", "/")), (one) => one.charCodeAt(0));
+  const bytes = Uint8Array.from(atob(letters.replaceAll("-", "+").replaceAll("_", "/")), (one) =>
+    one.charCodeAt(0),
+  );
   return new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"), MOST_TEXT));
 }

@@ -56,11 +56,19 @@ const theme = makeTheme(() => {
 });
 
 makeKeys(state, {
-  toggle: drive.toggle, step: () => drive.step(), back: drive.back,
-  slower: () => drive.faster(-1), faster: () => drive.faster(1),
-  reset: drive.reset, branch: drive.branch,
-  explain: why.explain, before: why.before, after: why.after,
-  follow: gestures.follow, legend: () => legend.open(), theme: theme.toggle,
+  toggle: drive.toggle,
+  step: () => drive.step(),
+  back: drive.back,
+  slower: () => drive.faster(-1),
+  faster: () => drive.faster(1),
+  reset: drive.reset,
+  branch: drive.branch,
+  explain: why.explain,
+  before: why.before,
+  after: why.after,
+  follow: gestures.follow,
+  legend: () => legend.open(),
+  theme: theme.toggle,
   tool: (place) => pointer.choose(TOOLS[place]),
   escape() {
     pointer.cancel();
@@ -76,9 +84,15 @@ state.send = (message) => connection.send(message);
 /** For tests: what the page knows, and where things are, in client pixels. */
 window.aplomb = {
   state,
-  get frame() { return state.frame; },
-  get hello() { return state.hello; },
-  get events() { return state.events; },
+  get frame() {
+    return state.frame;
+  },
+  get hello() {
+    return state.hello;
+  },
+  get events() {
+    return state.events;
+  },
   toScreen(x, y) {
     const box = stage.canvas.getBoundingClientRect();
     const [px, py] = camera.toScreen(x, y);

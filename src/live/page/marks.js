@@ -163,7 +163,18 @@ export function ways(ctx, view, path, on) {
     ctx.globalAlpha = 1;
   };
   if (on.com) way("com", (old) => old.com);
-  if (on.reference) way("reference", (old) => (old.reference === null ? null : [old.reference, old.com[1]]));
+  if (on.reference)
+    way("reference", (old) => (old.reference === null ? null : [old.reference, old.com[1]]));
+}
+
+/** A symbol on the stage: smaller where the character is small. */
+function put(ctx, view, name, x, y, ...more) {
+  const size = Math.min(1, Math.max(0.5, view.camera.scale / 130));
+  ctx.save();
+  ctx.translate(x, y);
+  ctx.scale(size, size);
+  symbol[name](ctx, 0, 0, ...more.map((v) => v / size));
+  ctx.restore();
 }
 
 /** Marks of one character of a frame; `on` tells which toggles are set. */
@@ -175,17 +186,17 @@ export function marks(ctx, view, one, on) {
   const [cx, cy] = camera.toScreen(...one.com);
   if (on.support && one.support) {
     const [rear, front] = one.support.map((x) => camera.toScreen(x, ground)[0]);
-    symbol.support(ctx, (rear + front) / 2, low + 2, Math.max((front - rear) / 2, 1));
+    put(ctx, view, "support", (rear + front) / 2, low + 2, Math.max((front - rear) / 2, 1));
   }
   if (on.reference && one.reference !== null) {
     const [x] = camera.toScreen(one.reference, 0);
     dashed(ctx, x, cy, low, colour("reference"));
-    symbol.reference(ctx, x, cy);
+    put(ctx, view, "reference", x, cy);
   }
   if (on.com) {
     dashed(ctx, cx, cy, low, colour("com"));
     arrow(ctx, cx, cy, one.v[0] * camera.scale * 0.25, -one.v[1] * camera.scale * 0.25, colour("com"));
-    symbol.com(ctx, cx, cy);
+    put(ctx, view, "com", cx, cy);
   }
   if (on.touch) {
     const size = METRES_PER_NEWTON * camera.scale;
@@ -193,6 +204,7 @@ export function marks(ctx, view, one, on) {
       arrow(ctx, ...camera.toScreen(x, y), fx * size, -fy * size, colour("touch"));
     }
   }
-  if (on.cop && one.cop !== null) symbol.cop(ctx, camera.toScreen(one.cop, 0)[0], low + 3);
-  if (on.capture && Number.isFinite(one.capture)) symbol.capture(ctx, camera.toScreen(one.capture, 0)[0], low);
+  if (on.cop && one.cop !== null) put(ctx, view, "cop", camera.toScreen(one.cop, 0)[0], low + 3);
+  if (on.capture && Number.isFinite(one.capture))
+    put(ctx, view, "capture", camera.toScreen(one.capture, 0)[0], low);
 }

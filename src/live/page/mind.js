@@ -20,13 +20,15 @@ export function makeMind(state, contract) {
 
   select.addEventListener("change", () => state.choose(Number(select.value)));
   state.on("hello", (hello) => {
-    select.replaceChildren(...hello.characters.map((one, k) => make("option", { value: k }, `${k + 1}: ${one.name}`)));
+    select.replaceChildren(
+      ...hello.characters.map((one, k) => make("option", { value: k }, `${k + 1}: ${one.name}`)),
+    );
     show(choice, hello.characters.length > 1);
     built = -1;
-    rows = [];
-    box.replaceChildren();
   });
-  state.on("character", () => { built = -1; });
+  state.on("character", () => {
+    built = -1;
+  });
   state.on("texts", update);
 
   function build(now) {
@@ -37,7 +39,6 @@ export function makeMind(state, contract) {
     const waits = now.bids.map((bid) => bid[1] === ON_COMMAND);
     const main = rows.filter((_, k) => !waits[k]);
     const rest = rows.filter((_, k) => waits[k]);
-    for (const row of rest) row.inGroup = true;
     box.replaceChildren(make("ul", {}, ...main.map((row) => row.item)));
     group = null;
     if (rest.length > 0) folded(rest);
@@ -47,8 +48,12 @@ export function makeMind(state, contract) {
 
   function folded(rest) {
     const count = make("span", {});
-    const button = make("button", { class: "group", "aria-expanded": open, onclick: () => fold(!open) },
-      make("span", { class: "chevron", "aria-hidden": "true" }), count);
+    const button = make(
+      "button",
+      { class: "group", "aria-expanded": open, onclick: () => fold(!open) },
+      make("span", { class: "chevron", "aria-hidden": "true" }),
+      count,
+    );
     const list = make("ul", { class: "waiting" }, ...rest.map((row) => row.item));
     group = { button, count, list, rest };
     box.append(button, list);
@@ -71,25 +76,44 @@ export function makeMind(state, contract) {
     const dot = make("i", {});
     const gauge = make("span", { class: "gauge", "aria-hidden": "true" }, dot);
     const miss = make("span", { class: "miss number" });
-    const button = make("button", {
-      class: "controller",
-      data: { controller: controller.name, state: "refuses" },
-      onclick: () => contract.toggle(k),
-    },
-      make("span", { class: "dot", data: { band: k } }), name,
+    const button = make(
+      "button",
+      {
+        class: "controller",
+        data: { controller: controller.name, state: "refuses" },
+        onclick: () => contract.toggle(k),
+      },
+      make("span", { class: "dot", data: { band: k } }),
+      name,
       controller.learned ? make("span", { class: "tag" }, "learned") : null,
-      bar, gauge, amount,
-      make("span", { class: "second" }, why, miss));
+      bar,
+      gauge,
+      amount,
+      make("span", { class: "second" }, why, miss),
+    );
     return {
-      item: make("li", {}, button), button, bar, fill, amount, why, gauge, dot, miss,
-      nodes: nodesOf(controller.precondition), inGroup: false, seen: "",
+      item: make("li", {}, button),
+      button,
+      bar,
+      fill,
+      amount,
+      why,
+      gauge,
+      dot,
+      miss,
+      nodes: nodesOf(controller.precondition),
+      seen: "",
     };
   }
 
   function update() {
     const now = state.now();
     if (built !== state.character || rows.length !== now.bids.length) build(now);
-    const most = Math.max(1, ...state.body().controllers.map((one) => one.weight), ...now.bids.map((bid) => bid[0]));
+    const most = Math.max(
+      1,
+      ...state.body().controllers.map((one) => one.weight),
+      ...now.bids.map((bid) => bid[0]),
+    );
     let waiting = 0;
     now.bids.forEach((bid, k) => {
       const row = rows[k];
@@ -117,14 +141,21 @@ export function makeMind(state, contract) {
     show(row.bar, at === null);
     if (at !== null) place(row.dot, "left", at);
     say(row.miss, refused ? missed(refused, value) : "");
-    const why = active ? "in control" : refused ? lacking(refused) : node === null ? "bids" : SPECIAL[node] ?? "refuses";
+    const why = active
+      ? "in control"
+      : refused
+        ? lacking(refused)
+        : node === null
+          ? "bids"
+          : (SPECIAL[node] ?? "refuses");
     say(row.why, why);
     mark(row.button, "title", refused ? `${why}; ${missed(refused, value) || "it does not hold"}` : why);
   }
 
   /** Colours of the dots; anew after a change of theme. */
   function paint() {
-    for (const dot of box.querySelectorAll("[data-band]")) dot.style.background = band(Number(dot.dataset.band));
+    for (const dot of box.querySelectorAll("[data-band]"))
+      dot.style.background = band(Number(dot.dataset.band));
   }
 
   return { paint };

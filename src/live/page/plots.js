@@ -24,24 +24,39 @@ export function makePlots(state, tabs) {
   let stale = true;
   let drawnAt = 0;
 
-  const jointPlace = () => Math.max(0, state.body()?.joints.findIndex((one) => one.name === joint.value) ?? 0);
+  const jointPlace = () =>
+    Math.max(0, state.body()?.joints.findIndex((one) => one.name === joint.value) ?? 0);
   const known = () => (state.hello?.features ?? []).map(unwrap);
 
   state.on("hello", (hello) => {
     trace.clear();
-    byId("features").replaceChildren(...known().map((one) => make("option", { value: one.name }, one.meaning ?? "")));
+    byId("features").replaceChildren(
+      ...known().map((one) => make("option", { value: one.name }, one.meaning ?? "")),
+    );
     fill();
     watched = "";
     watch();
     stale = true;
   });
-  state.on("character", () => { trace.clear(); fill(); });
-  state.on("connected", () => { watched = ""; watch(); });
+  state.on("character", () => {
+    trace.clear();
+    fill();
+  });
+  state.on("connected", () => {
+    watched = "";
+    watch();
+  });
   state.on("frame", (frame) => {
     const one = frame.c[state.character];
     trace.add(frame.t, [
-      one.com[0], one.cop, one.capture, one.support?.[0] ?? null, one.support?.[1] ?? null, one.reference,
-      ...PAINTS.map((_, k) => frame.watch?.[k] ?? null), ...one.torque,
+      one.com[0],
+      one.cop,
+      one.capture,
+      one.support?.[0] ?? null,
+      one.support?.[1] ?? null,
+      one.reference,
+      ...PAINTS.map((_, k) => frame.watch?.[k] ?? null),
+      ...one.torque,
     ]);
   });
   state.on("texts", () => {
@@ -52,10 +67,18 @@ export function makePlots(state, tabs) {
 
   function fill() {
     const names = state.body().joints.map((one) => one.name);
-    joint.replaceChildren(...names.map((name) => make("option", { value: name }, name.replaceAll("_", " "))));
-    joint.value = names.includes(wantedJoint) ? wantedJoint : names.find((name) => /knee|ankle/.test(name)) ?? names[0] ?? "";
+    joint.replaceChildren(
+      ...names.map((name) => make("option", { value: name }, name.replaceAll("_", " "))),
+    );
+    joint.value = names.includes(wantedJoint)
+      ? wantedJoint
+      : (names.find((name) => /knee|ankle/.test(name)) ?? names[0] ?? "");
   }
-  joint.addEventListener("change", () => { wantedJoint = joint.value; stale = true; draw(); });
+  joint.addEventListener("change", () => {
+    wantedJoint = joint.value;
+    stale = true;
+    draw();
+  });
   feature.addEventListener("change", watch);
   feature.addEventListener("input", watch);
 
@@ -67,24 +90,50 @@ export function makePlots(state, tabs) {
     if (names.length === 0 || names.join() === watched || !state.connected) return;
     watched = names.join();
     PAINTS.forEach((_, k) => trace.forget(FEATURES + k));
-    byId("feature-key").replaceChildren(...names.map((name, k) => make("span", { data: { colour: PAINTS[k] } }, name)));
+    byId("feature-key").replaceChildren(
+      ...names.map((name, k) => make("span", { data: { colour: PAINTS[k] } }, name)),
+    );
     stale = true;
     state.send({ do: "watch", features: names });
   }
 
-  const line = (label, name, more = {}) => ({ label, stroke: colour(name), width: 1.8, spanGaps: false, points: { show: false }, ...more });
+  const line = (label, name, more = {}) => ({
+    label,
+    stroke: colour(name),
+    width: 1.8,
+    spanGaps: false,
+    points: { show: false },
+    ...more,
+  });
 
   function plot(id, series, options = {}) {
     const box = byId(id);
-    const axis = { stroke: colour("soft"), grid: { stroke: clear(colour("soft"), 0.18), width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
-    return new window.uPlot({
-      width: Math.max(box.clientWidth, 120), height: Math.max(box.clientHeight, 80),
-      cursor: { drag: { x: false, y: false }, points: { size: 6 } }, legend: { show: false },
-      scales: { x: { time: false, range: () => [trace.now - SPAN, Math.max(trace.now, trace.now - SPAN + 1)] }, y: options.y ?? {} },
-      axes: [{ ...axis, size: 26, space: 60, values: (_, ticks) => ticks.map((v) => (v < 0 ? "" : `${v} s`)) }, { ...axis, size: 46, space: 26, values: (_, ticks) => ticks.map(plain) }],
-      series: [{ label: "t", value: (_, v) => (v === null ? "–" : `${v.toFixed(2)} s`) }, ...series],
-      bands: options.bands,
-    }, null, box);
+    const axis = {
+      stroke: colour("soft"),
+      grid: { stroke: clear(colour("soft"), 0.18), width: 1 },
+      ticks: { show: false },
+      font: "11px system-ui, sans-serif",
+    };
+    return new window.uPlot(
+      {
+        width: Math.max(box.clientWidth, 120),
+        height: Math.max(box.clientHeight, 80),
+        cursor: { drag: { x: false, y: false }, points: { size: 6 } },
+        legend: { show: false },
+        scales: {
+          x: { time: false, range: () => [trace.now - SPAN, Math.max(trace.now, trace.now - SPAN + 1)] },
+          y: options.y ?? {},
+        },
+        axes: [
+          { ...axis, size: 26, space: 60, values: (_, ticks) => ticks.map((v) => (v < 0 ? "" : `${v} s`)) },
+          { ...axis, size: 46, space: 26, values: (_, ticks) => ticks.map(plain) },
+        ],
+        series: [{ label: "t", value: (_, v) => (v === null ? "–" : `${v.toFixed(2)} s`) }, ...series],
+        bands: options.bands,
+      },
+      null,
+      box,
+    );
   }
 
   function build() {
@@ -96,12 +145,27 @@ export function makePlots(state, tabs) {
     const reach = 1.08 * limit;
     const edge = { width: 1, dash: [5, 4] };
     plots = [
-      plot("plot-balance", [
-        line("centre of mass", "com"), line("centre of pressure", "cop"), line("capture point", "capture"), line("reference", "reference", { width: 1.2 }),
-        line("rear", "support", { width: 1 }), line("front", "support", { width: 1 }),
-      ], { bands: [{ series: [6, 5], fill: clear(colour("support"), 0.14) }] }),
-      plot("plot-torque", [line("torque, N·m", "accent"), line("limit", "bad", edge), line("", "bad", edge)], { y: { range: [-reach, reach] } }),
-      plot("plot-feature", watched.split(",").map((name, k) => line(name, PAINTS[k]))),
+      plot(
+        "plot-balance",
+        [
+          line("centre of mass", "com"),
+          line("centre of pressure", "cop"),
+          line("capture point", "capture"),
+          line("reference", "reference", { width: 1.2 }),
+          line("rear", "support", { width: 1 }),
+          line("front", "support", { width: 1 }),
+        ],
+        { bands: [{ series: [6, 5], fill: clear(colour("support"), 0.14) }] },
+      ),
+      plot(
+        "plot-torque",
+        [line("torque, N·m", "accent"), line("limit", "bad", edge), line("", "bad", edge)],
+        { y: { range: [-reach, reach] } },
+      ),
+      plot(
+        "plot-feature",
+        watched.split(",").map((name, k) => line(name, PAINTS[k])),
+      ),
     ];
   }
 
@@ -116,7 +180,18 @@ export function makePlots(state, tabs) {
     plots[2].setData([t, ...watched.split(",").map((_, k) => trace.of(FEATURES + k))]);
   }
 
-  tabs.on("plots", () => { stale = true; draw(); });
-  addEventListener("resize", () => { stale = true; draw(); });
-  return { restyle: () => { stale = true; draw(); } };
+  tabs.on("plots", () => {
+    stale = true;
+    draw();
+  });
+  addEventListener("resize", () => {
+    stale = true;
+    draw();
+  });
+  return {
+    restyle: () => {
+      stale = true;
+      draw();
+    },
+  };
 }

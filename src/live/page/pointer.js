@@ -4,10 +4,10 @@
 
 import { byId, mark, seldom, show } from "./dom.js";
 import { bodyAt, pointOf } from "./hit.js";
-import { drawSpring, drawPush, drawThrow } from "./arrows.js";
+import { IMPULSE_PER_METRE, drawSpring, drawPush, drawThrow } from "./arrows.js";
 
-export const IMPULSE_PER_METRE = 120; // N·s
 const SPEED_PER_METRE = 6; // m/s
+const SECOND_FINGER = 90; // ms that a touch waits for a second finger before it pulls
 const SMALLEST_PUSH = 1; // N·s
 const MOST_PUSH = 1000; // N·s
 const MOST_SPEED = 50; // m/s each way
@@ -47,7 +47,8 @@ export function makePointer(state, stage, camera) {
 
   function light(found) {
     const old = stage.lit;
-    if (old?.prop === found?.prop && old?.link === found?.link && old?.character === found?.character) return;
+    if (old?.prop === found?.prop && old?.link === found?.link && old?.character === found?.character)
+      return;
     stage.lit = found;
     stage.touch();
     if (pointer.tool === "drag") canvas.style.cursor = found ? "grab" : "default";
@@ -62,8 +63,9 @@ export function makePointer(state, stage, camera) {
     if (found?.character !== undefined) state.choose(found.character);
     if (tool === "drag") {
       if (!found) return false;
-      held = { tool, found, to: from };
-      pull();
+      const wait = event.pointerType === "touch" ? SECOND_FINGER : 0;
+      held = { tool, found, to: from, since: performance.now() + wait };
+      setTimeout(pull, wait);
     } else if (tool === "push") {
       if (found?.character === undefined) return false;
       held = { tool, found, from, to: from };
@@ -77,16 +79,18 @@ export function makePointer(state, stage, camera) {
   }
 
   const pull = seldom(30, () => {
-    if (held?.tool !== "drag") return;
+    if (held?.tool !== "drag" || performance.now() < held.since) return;
     const { found, to } = held;
     held.sent = true;
-    const whose = found.prop === undefined ? { character: found.character, link: found.name } : { prop: found.prop };
+    const whose =
+      found.prop === undefined ? { character: found.character, link: found.name } : { prop: found.prop };
     state.send({ do: "drag", ...whose, point: rounded(found.point), to: rounded(to) });
   });
 
   function move(event) {
     if (!held) {
-      if (event.pointerType !== "touch") light(pointer.tool === "drag" || pointer.tool === "push" ? seen(find(event)) : null);
+      if (event.pointerType !== "touch")
+        light(pointer.tool === "drag" || pointer.tool === "push" ? seen(find(event)) : null);
       return;
     }
     held.to = world(event);
@@ -109,7 +113,13 @@ export function makePointer(state, stage, camera) {
       if (Math.hypot(...impulse) < SMALLEST_PUSH) return;
       state.send({ do: "push", character: done.found.character, link: done.found.name, impulse });
     } else {
-      state.send({ do: "throw", shape: done.tool, ...wares(), position: rounded(done.from), velocity: velocityOf(done) });
+      state.send({
+        do: "throw",
+        shape: done.tool,
+        ...wares(),
+        position: rounded(done.from),
+        velocity: velocityOf(done),
+      });
     }
   }
 
@@ -131,10 +141,15 @@ export function makePointer(state, stage, camera) {
     return from.map((v, k) => Math.round(bound((to[k] - v) * IMPULSE_PER_METRE) * 10) / 10);
   }
 
-  const velocityOf = ({ from, to }) => rounded(from.map((v, k) => {
-    const moved = to[k] - v;
-    return Math.abs(moved) * camera.scale < 4 ? 0 : Math.min(MOST_SPEED, Math.max(-MOST_SPEED, moved * SPEED_PER_METRE));
-  }));
+  const velocityOf = ({ from, to }) =>
+    rounded(
+      from.map((v, k) => {
+        const moved = to[k] - v;
+        return Math.abs(moved) * camera.scale < 4
+          ? 0
+          : Math.min(MOST_SPEED, Math.max(-MOST_SPEED, moved * SPEED_PER_METRE));
+      }),
+    );
 
   stage.overlay((ctx) => {
     if (held?.tool === "push") {
@@ -156,9 +171,16 @@ export function makePointer(state, stage, camera) {
     return state.hello.scenario.parameters.find((one) => one.name === "gravity")?.value ?? 9.81;
   }
 
-  state.on("hello", () => { held = null; stage.lit = null; });
-  state.on("connected", (connected) => { if (!connected) held = null; });
-  canvas.addEventListener("pointerleave", () => { if (!held) light(null); });
+  state.on("hello", () => {
+    held = null;
+    stage.lit = null;
+  });
+  state.on("connected", (connected) => {
+    if (!connected) held = null;
+  });
+  canvas.addEventListener("pointerleave", () => {
+    if (!held) light(null);
+  });
   choose("drag");
   return pointer;
 }

@@ -32,7 +32,8 @@ export function makeSave(state, stage, timeline, connection, told) {
       const address = new URL(`save/${name}`, location.href.split("#")[0]);
       if (stretch) address.search = new URLSearchParams({ from: stretch[0], to: stretch[1] });
       const answer = await fetch(address);
-      if (!answer.ok) throw new Error((await answer.text()).slice(0, 300) || `${name}: the server says ${answer.status}`);
+      if (!answer.ok)
+        throw new Error((await answer.text()).slice(0, 300) || `${name}: the server says ${answer.status}`);
       return new Uint8Array(await answer.arrayBuffer());
     }
     return new Promise((good, bad) => {
@@ -63,7 +64,9 @@ export function makeSave(state, stage, timeline, connection, told) {
 
   function picture() {
     stage.draw();
-    stage.canvas.toBlob((blob) => { if (blob) hand("aplomb.png", blob); }, "image/png");
+    stage.canvas.toBlob((blob) => {
+      if (blob) hand("aplomb.png", blob);
+    }, "image/png");
   }
 
   // A film of the stage as it is seen, made by the browser.
@@ -86,9 +89,13 @@ export function makeSave(state, stage, timeline, connection, told) {
   }
 
   const button = (id, label, act) => make("button", { id: `save-${id}`, onclick: act }, label);
-  byId("save-all").append(...ALL.map(([id, name, label]) => button(id, label, () => save(name, false))), button("png", "Picture (PNG)", picture));
+  byId("save-all").append(
+    ...ALL.map(([id, name, label]) => button(id, label, () => save(name, false))),
+    button("png", "Picture (PNG)", picture),
+  );
   byId("save-part").append(...PART.map(([id, name, label]) => button(id, label, () => save(name, true))));
-  if (typeof MediaRecorder === "function" && MediaRecorder.isTypeSupported("video/webm")) byId("save-part").append(button("webm", "Film (WebM)", film));
+  if (typeof MediaRecorder === "function" && MediaRecorder.isTypeSupported("video/webm"))
+    byId("save-part").append(button("webm", "Film (WebM)", film));
 
   state.on("hello", (hello) => {
     for (const [id] of PART) show(byId(`save-${id}`), hello.native);
@@ -98,7 +105,9 @@ export function makeSave(state, stage, timeline, connection, told) {
   state.on("texts", () => {
     if (byId("panel-save").hidden) return;
     const [from, to] = timeline.visible().map((step) => (step * state.hello.dt).toFixed(2));
-    const text = state.hello.native ? `From ${from} s to ${to} s. Zoom the timeline with the wheel to choose.` : "The film shows the stage from when you start it until you stop it.";
+    const text = state.hello.native
+      ? `From ${from} s to ${to} s. Zoom the timeline, with the wheel or two fingers, to choose.`
+      : "The film shows the stage from when you start it until you stop it.";
     if (byId("save-stretch").textContent !== text) byId("save-stretch").textContent = text;
   });
 

@@ -8,7 +8,11 @@ export const MOST_TEXT = 511 * 1024;
 
 export function makeScene(state, told) {
   const lists = { scenario: "scenarios", character: "characters", repertoire: "repertoires" };
-  const own = { scenario: "standing on level ground", character: "the scenario's own", repertoire: "the character's own" };
+  const own = {
+    scenario: "standing on level ground",
+    character: "the scenario's own",
+    repertoire: "the character's own",
+  };
   let known = "";
   let rows = [];
 
@@ -17,7 +21,10 @@ export function makeScene(state, told) {
     if (shipped !== known) {
       known = shipped;
       for (const [id, list] of Object.entries(lists)) {
-        byId(id).replaceChildren(make("option", { value: "" }, own[id]), ...hello.shipped[list].map((name) => make("option", { value: name }, name)));
+        byId(id).replaceChildren(
+          make("option", { value: "" }, own[id]),
+          ...hello.shipped[list].map((name) => make("option", { value: name }, name)),
+        );
       }
     }
     const { name } = hello.scenario;
@@ -27,7 +34,12 @@ export function makeScene(state, told) {
 
   byId("load").addEventListener("click", () => {
     const chosen = (id) => byId(id).value || null;
-    state.send({ do: "load", scenario: chosen("scenario"), character: chosen("character"), repertoire: chosen("repertoire") });
+    state.send({
+      do: "load",
+      scenario: chosen("scenario"),
+      character: chosen("character"),
+      repertoire: chosen("repertoire"),
+    });
   });
 
   /** Sliders; those that are being moved stay, so that an answer doesn't take them from the hand. */
@@ -47,20 +59,36 @@ export function makeScene(state, told) {
     const send = () => state.send({ do: "set", name, value: Number(Number(input.value).toPrecision(5)) });
     const soon = seldom(80, send);
     const input = make("input", {
-      type: "range", min, max, step: "any", "aria-label": name,
+      type: "range",
+      min,
+      max,
+      step: "any",
+      "aria-label": name,
       oninput: () => {
         say(output, short(Number(input.value), 2));
         if (!restarts) soon();
       },
-      onchange: () => { if (restarts) send(); },
+      onchange: () => {
+        if (restarts) send();
+      },
     });
     const set = (to) => {
       if (document.activeElement !== input || restarts) input.value = String(to);
       say(output, short(Number(input.value), 2));
     };
     set(value);
-    const box = make("label", { class: "parameter", data: { parameter: name } },
-      make("span", {}, name.replaceAll("_", " "), restarts ? make("small", { class: "soft" }, "  begins the run anew") : null), output, input);
+    const box = make(
+      "label",
+      { class: "parameter", data: { parameter: name } },
+      make(
+        "span",
+        {},
+        name.replaceAll("_", " "),
+        restarts ? make("small", { class: "soft" }, "  begins the run anew") : null,
+      ),
+      output,
+      input,
+    );
     return { name, box, set };
   }
 
@@ -89,7 +117,9 @@ export function makeScene(state, told) {
     event.preventDefault();
     show(byId("drop-here"), true);
   });
-  addEventListener("dragleave", (event) => { if (event.relatedTarget === null) show(byId("drop-here"), false); });
+  addEventListener("dragleave", (event) => {
+    if (event.relatedTarget === null) show(byId("drop-here"), false);
+  });
   addEventListener("drop", (event) => {
     show(byId("drop-here"), false);
     if (!carries(event)) return;

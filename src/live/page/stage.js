@@ -25,7 +25,9 @@ export function makeStage(state, camera, on) {
   const stage = {
     canvas,
     /** Asks for a new picture. */
-    touch: () => { stale = true; },
+    touch: () => {
+      stale = true;
+    },
     /** `draw(ctx, view)` comes last, in CSS pixels. */
     overlay: (draw) => overlays.push(draw),
     /** What the pointer is over: `{character, link}`, `{prop}` or null. */
@@ -63,7 +65,8 @@ export function makeStage(state, camera, on) {
     path = path.filter((old) => old.t < frame.t && old.t > frame.t - PATH_FOR);
     path.push({ t: frame.t, c: frame.c.map(({ com, reference }) => ({ com, reference })) });
     const last = trail[trail.length - 1];
-    if (!last || frame.t - last.t >= TRAIL_EVERY) trail.push({ t: frame.t, poses: frame.c.map((one) => one.l) });
+    if (!last || frame.t - last.t >= TRAIL_EVERY)
+      trail.push({ t: frame.t, poses: frame.c.map((one) => one.l) });
     if (trail.length > TRAIL_LENGTH) trail.shift();
   }
 
@@ -71,7 +74,8 @@ export function makeStage(state, camera, on) {
     const dt = (now - before) / 1000;
     before = now;
     if (camera.update(dt, boxOf(state))) stale = true;
-    if (stale) draw();
+    // Between a hello and its first frame the old picture stays.
+    if (stale && (state.frame || !state.hello)) draw();
     requestAnimationFrame(loop);
   }
 
@@ -97,7 +101,12 @@ export function makeStage(state, camera, on) {
       figure(ctx, view, layers[k], frame.c[k].l, k, lit);
     }
     frame.c.forEach((one, k) => {
-      ways(ctx, view, path.map((old) => old.c[k]), on);
+      ways(
+        ctx,
+        view,
+        path.map((old) => old.c[k]),
+        on,
+      );
       marks(ctx, view, one, on);
     });
     ctx.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);

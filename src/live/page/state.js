@@ -52,9 +52,15 @@ export function makeState() {
   /** A frame of an earlier hello may still be on its way; it would not fit. */
   function fits(frame) {
     const characters = state.hello?.characters;
-    return characters !== undefined && frame.c.length === characters.length
-      && frame.c.every((one, k) => one.l.length === 3 * characters[k].links.length
-        && one.bids.length === characters[k].controllers.length);
+    return (
+      characters !== undefined &&
+      frame.c.length === characters.length &&
+      frame.c.every(
+        (one, k) =>
+          one.l.length === 3 * characters[k].links.length &&
+          one.bids.length === characters[k].controllers.length,
+      )
+    );
   }
 
   const kinds = {

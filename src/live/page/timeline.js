@@ -1,14 +1,16 @@
 // The timeline: the active controllers as coloured bands, what happened as marks above them. Click or
-// drag seeks, the wheel zooms, a double click shows all again. Events + frame → canvas, `seek`.
+// drag seeks, the wheel or two fingers zoom, a double click shows all again. Events + frame → canvas, `seek`.
 
 import { byId, mark, seldom, show } from "./dom.js";
 import { colour, band, clear } from "./look.js";
 import { bandsOf, symbolOf } from "./bands.js";
+import { makeSpan } from "./span.js";
 import { eventText } from "./words.js";
 
 const MARKS_HIGH = 20;
 const AXIS_HIGH = 15;
-const LENGTHS = [5, 10, 20, 30, 60, 120, 300, 600, 1800, 3600, 7200, 36000]; // s
+const EACH = 16; // px more for each further character
+const HIGH = 56;
 
 export function makeTimeline(state) {
   const canvas = byId("timeline");
@@ -16,9 +18,9 @@ export function makeTimeline(state) {
   const ctx = canvas.getContext("2d");
   let size = [100, 56];
   let ratio = 1;
-  let chosen = null; // [from, to] in steps, if somebody has zoomed
   let held = null; // step under the finger while it seeks
-  let hover = null; // [x, y]
+  let hover = null; // px
+  const fingers = new Map(); // id → px
   let bands = [];
   let drawn = "";
 
@@ -26,15 +28,11 @@ export function makeTimeline(state) {
   const end = () => state.frame?.end ?? 0;
   const first = () => state.frame?.first ?? 0;
 
-  function span() {
-    if (chosen) return chosen;
-    const from = first();
-    const length = (end() - from) * dt();
-    const nice = LENGTHS.find((one) => one >= length) ?? length;
-    return [from, from + Math.max(nice, 10) / dt()];
-  }
-  const toX = (step) => { const [a, b] = span(); return ((step - a) / (b - a)) * size[0]; };
-  const toStep = (x) => { const [a, b] = span(); return a + (x / size[0]) * (b - a); };
+  const span = makeSpan(
+    () => ({ first: first(), end: end(), dt: dt() }),
+    () => size[0],
+  );
+  const { toX, toStep, bounded } = span;
 
   new ResizeObserver(() => {
     ratio = Math.max(devicePixelRatio, 1);
@@ -44,14 +42,20 @@ export function makeTimeline(state) {
     draw();
   }).observe(canvas);
 
-  state.on("hello", () => { chosen = null; held = null; });
+  state.on("hello", (hello) => {
+    span.all();
+    held = null;
+    const more = hello.characters.length - 1;
+    canvas.style.height = more > 0 ? `${HIGH + EACH * more}px` : "";
+    tip.style.bottom = more > 0 ? `${HIGH + EACH * more + 4}px` : "";
+  });
   state.on("events", (events) => {
     bands = bandsOf(state.hello, events);
     draw();
   });
   state.on("frame", () => {
     // The playhead moves by less than a pixel in most frames: then nothing is drawn.
-    const seen = `${Math.round(toX(state.frame.n) * 2)} ${Math.round(toX(end()) * 2)} ${span()} ${first()}`;
+    const seen = `${Math.round(toX(state.frame.n) * 2)} ${Math.round(toX(end()) * 2)} ${span.now()} ${first()}`;
     if (seen !== drawn) draw(seen);
   });
   state.on("texts", (frame) => {
@@ -105,17 +109,24 @@ export function makeTimeline(state) {
   }
 
   function axis() {
-    const [a, b] = span();
+    const [a, b] = span.now();
     const length = (b - a) * dt();
     const wanted = (length / size[0]) * 70;
-    const every = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1800, 3600].find((one) => one >= wanted) ?? 7200;
+    const every =
+      [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1800, 3600].find(
+        (one) => one >= wanted,
+      ) ?? 7200;
     ctx.fillStyle = colour("soft");
     ctx.font = "10.5px system-ui, sans-serif";
     ctx.textBaseline = "alphabetic";
     for (let k = Math.ceil((a * dt()) / every); k * every <= b * dt(); k++) {
       const x = toX((k * every) / dt());
       ctx.textAlign = x < 12 ? "left" : x > size[0] - 16 ? "right" : "center";
-      ctx.fillText(`${Number((k * every).toFixed(3))}${k === 0 ? " s" : ""}`, Math.min(Math.max(x, 4), size[0] - 4), size[1] - 3.5);
+      ctx.fillText(
+        `${Number((k * every).toFixed(3))}${k === 0 ? " s" : ""}`,
+        Math.min(Math.max(x, 4), size[0] - 4),
+        size[1] - 3.5,
+      );
     }
   }
 
@@ -145,7 +156,9 @@ export function makeTimeline(state) {
     }
     const step = toStep(x);
     if (near) return `${near.event.t.toFixed(3)} s: ${eventText(near.event)}`;
-    const names = bands.map((row) => row.find((one) => one.from <= step && step < (one.to ?? end() + 1))?.name).filter(Boolean);
+    const names = bands
+      .map((row) => row.find((one) => one.from <= step && step < (one.to ?? end() + 1))?.name)
+      .filter(Boolean);
     return step > end() || names.length === 0 ? null : `${(step * dt()).toFixed(2)} s: ${names.join(", ")}`;
   }
 
@@ -159,11 +172,24 @@ export function makeTimeline(state) {
   }
 
   const seek = seldom(50, (step) => state.send({ do: "seek", step }));
-  const bounded = (step) => Math.round(Math.min(end(), Math.max(first(), step)));
+
+  const place = (event) => event.clientX - canvas.getBoundingClientRect().left;
+
+  function pinch(id) {
+    const [other] = [...fingers].filter(([one]) => one !== id).map(([, x]) => x);
+    const [before, now] = [fingers.get(id), hover];
+    fingers.set(id, now);
+    const factor = Math.abs(before - other) / Math.max(Math.abs(now - other), 4);
+    span.zoom((before + other) / 2, factor, (now + other) / 2);
+    draw();
+  }
 
   function track(event) {
-    const box = canvas.getBoundingClientRect();
-    hover = event.clientX - box.left;
+    hover = place(event);
+    if (fingers.size === 2 && fingers.has(event.pointerId)) {
+      pinch(event.pointerId);
+      return;
+    }
     if (held !== null) {
       held = bounded(toStep(hover));
       seek(held);
@@ -174,32 +200,40 @@ export function makeTimeline(state) {
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button !== 0 || !state.frame) return;
     canvas.setPointerCapture(event.pointerId);
-    held = 0;
+    fingers.set(event.pointerId, place(event));
+    held = fingers.size === 1 ? 0 : null;
     track(event);
   });
   canvas.addEventListener("pointermove", track);
   for (const kind of ["pointerup", "pointercancel"]) {
     canvas.addEventListener(kind, (event) => {
       held = null;
+      fingers.delete(event.pointerId);
       if (event.pointerType === "touch") hover = null;
       hint();
     });
   }
-  canvas.addEventListener("pointerleave", () => { hover = null; hint(); });
-  canvas.addEventListener("dblclick", () => { chosen = null; draw(); });
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    const at = toStep(event.clientX - canvas.getBoundingClientRect().left);
-    const [a, b] = span();
-    const factor = Math.exp(event.deltaY * 0.0015);
-    const full = Math.max(end() - first(), 10 / dt());
-    if ((b - a) * factor >= full * 1.2) chosen = null;
-    else if ((b - a) * factor > 50) chosen = [Math.max(first(), at - (at - a) * factor), at + (b - at) * factor];
+  canvas.addEventListener("pointerleave", () => {
+    hover = null;
+    hint();
+  });
+  canvas.addEventListener("dblclick", () => {
+    span.all();
     draw();
-  }, { passive: false });
+  });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      span.zoom(place(event), Math.exp(event.deltaY * 0.0015));
+      draw();
+    },
+    { passive: false },
+  );
   canvas.addEventListener("keydown", (event) => {
     const by = { ArrowLeft: -100, ArrowRight: 100, PageDown: -1000, PageUp: 1000 }[event.key];
-    const to = event.key === "Home" ? first() : event.key === "End" ? end() : by ? state.frame.n + by : null;
+    const to =
+      event.key === "Home" ? first() : event.key === "End" ? end() : by ? state.frame.n + by : null;
     if (to === null || !state.frame) return;
     event.preventDefault();
     event.stopPropagation();
@@ -209,7 +243,7 @@ export function makeTimeline(state) {
   return {
     draw: () => draw(),
     /** The steps that it shows. */
-    visible: () => span().map(bounded),
+    visible: () => span.now().map(bounded),
     toX: (step) => canvas.getBoundingClientRect().left + toX(step),
   };
 }

@@ -15,9 +15,16 @@ export function makeTold(state) {
   /** `key`: a later note with the same one replaces it. */
   function note(ok, text, key = text) {
     const place = /:\d+:\d+/.test(text);
-    const item = make("div", { class: "told", data: { ok, key, lasting: !ok && place } },
+    const item = make(
+      "div",
+      { class: "told", data: { ok, key, lasting: !ok && place } },
       make("span", {}, text),
-      make("button", { class: "icon plain", "aria-label": "Close", onclick: () => item.remove() }, icon("close")));
+      make(
+        "button",
+        { class: "icon plain", "aria-label": "Close", onclick: () => item.remove() },
+        icon("close"),
+      ),
+    );
     for (const old of [...box.children]) if (old.dataset.key === key) old.remove();
     box.append(item);
     if (ok || !place) setTimeout(() => item.remove(), ok ? GOOD_FOR : BAD_FOR);
@@ -40,14 +47,22 @@ export function makeTold(state) {
       note(true, String(message.text));
       return;
     }
-    files.append(make("span", {}, String(message.text)),
-      make("button", { class: "icon plain", "aria-label": "Close", onclick: () => show(files, false) }, icon("close")));
+    files.append(
+      make("span", {}, String(message.text)),
+      make(
+        "button",
+        { class: "icon plain", "aria-label": "Close", onclick: () => show(files, false) },
+        icon("close"),
+      ),
+    );
   });
   state.on("events", (events, from) => {
     if (from === 0) return;
     for (const event of events.slice(from)) {
       const text = String(event.text ?? "");
-      const told = [...box.children].some((one) => one.firstChild.textContent.startsWith(text.split(":")[0]));
+      const told = [...box.children].some((one) =>
+        one.firstChild.textContent.startsWith(text.split(":")[0]),
+      );
       if (event.kind !== "refused" || told || `${event.n} ${text}` === lastRefusal) continue;
       lastRefusal = `${event.n} ${text}`;
       note(false, `Refused: ${text}`);

@@ -11,7 +11,8 @@ export function makeWhy(state, drive, tabs) {
   const list = byId("why-list");
   let shown; // the event that is on show
 
-  const switches = () => state.events.filter((one) => one.kind === "switch" && one.character === state.character);
+  const switches = () =>
+    state.events.filter((one) => one.kind === "switch" && one.character === state.character);
   const lastBefore = (step) => switches().findLast((one) => one.n <= step) ?? null;
 
   /** Pauses at the last switch and shows it. */
@@ -33,9 +34,16 @@ export function makeWhy(state, drive, tabs) {
   const before = () => state.frame && go(lastBefore(state.frame.n - 1));
   const after = () => state.frame && go(switches().find((one) => one.n > state.frame.n));
 
-  state.on("hello", () => { shown = undefined; });
-  state.on("events", () => { shown = undefined; fill(); });
-  state.on("character", () => { shown = undefined; });
+  state.on("hello", () => {
+    shown = undefined;
+  });
+  state.on("events", () => {
+    shown = undefined;
+    fill();
+  });
+  state.on("character", () => {
+    shown = undefined;
+  });
   state.on("texts", update);
 
   function update() {
@@ -46,7 +54,10 @@ export function makeWhy(state, drive, tabs) {
     if (event === shown) return;
     shown = event;
     say(byId("why-title"), event ? title(event) : "No switch yet");
-    say(byId("why-reason"), event ? `At ${event.t.toFixed(3)} s. ${reasonText(event)} ${detail(event)}`.trim() : "");
+    say(
+      byId("why-reason"),
+      event ? `At ${event.t.toFixed(3)} s. ${reasonText(event)} ${detail(event)}`.trim() : "",
+    );
     list.replaceChildren(...(event ? bidders(event) : []));
   }
 
@@ -69,17 +80,33 @@ export function makeWhy(state, drive, tabs) {
     const refusals = bids.filter((one) => one[2] !== null && !waits.includes(one));
     const row = ([name, amount, refusal]) => {
       const dot = make("span", { class: "dot" });
-      dot.style.background = band(Math.max(0, pool.findIndex((one) => one.name === name)));
+      dot.style.background = band(
+        Math.max(
+          0,
+          pool.findIndex((one) => one.name === name),
+        ),
+      );
       const fill = make("i", {});
       fill.style.width = `${(100 * amount) / most}%`;
-      return make("li", { data: { name, state: name === event.to ? "active" : refusal === null ? "bids" : "refuses" } },
-        dot, make("b", {}, name),
+      return make(
+        "li",
+        { data: { name, state: name === event.to ? "active" : refusal === null ? "bids" : "refuses" } },
+        dot,
+        make("b", {}, name),
         refusal === null ? make("span", { class: "bid" }, fill) : null,
-        make("span", { class: "soft" }, refusal === null ? `bids ${amount}` : clause(refusal)));
+        make("span", { class: "soft" }, refusal === null ? `bids ${amount}` : clause(refusal)),
+      );
     };
     return [
-      ...offers.map(row), ...refusals.map(row),
-      waits.length > 0 ? make("li", { class: "soft", data: { state: "waits" } }, `Only on command: ${waits.map((one) => one[0]).join(", ")}`) : null,
+      ...offers.map(row),
+      ...refusals.map(row),
+      waits.length > 0
+        ? make(
+            "li",
+            { class: "soft", data: { state: "waits" } },
+            `Only on command: ${waits.map((one) => one[0]).join(", ")}`,
+          )
+        : null,
     ].filter(Boolean);
   }
 
@@ -87,10 +114,36 @@ export function makeWhy(state, drive, tabs) {
     if (byId("panel-why").hidden) return;
     const events = state.events.filter((one) => one.kind !== "release");
     const from = Math.max(0, events.length - MOST_EVENTS);
-    byId("events-list").replaceChildren(...events.slice(from).map((event, k) => make("li", {},
-      make("button", { data: { place: from + k, kind: event.kind }, onclick: () => { drive.pause(); drive.seek(event.n); } },
-        make("span", { class: "number soft" }, event.t.toFixed(3)), make("span", {}, eventText(event))))));
+    byId("events-list").replaceChildren(
+      ...events.slice(from).map((event, k) =>
+        make(
+          "li",
+          {},
+          make(
+            "button",
+            {
+              data: { place: from + k, kind: event.kind },
+              onclick: () => {
+                drive.pause();
+                drive.seek(event.n);
+              },
+            },
+            make("span", { class: "number soft" }, event.t.toFixed(3)),
+            make("span", {}, eventText(event)),
+          ),
+        ),
+      ),
+    );
   }
 
-  return { explain, before, after, refresh: () => { shown = undefined; fill(); update(); } };
+  return {
+    explain,
+    before,
+    after,
+    refresh: () => {
+      shown = undefined;
+      fill();
+      update();
+    },
+  };
 }

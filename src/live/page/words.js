@@ -31,7 +31,7 @@ export function nodesOf(root) {
 
 export const isLeaf = (node) => parts(node).length === 0;
 
-export const bounds = (node) => (node.learned ? [0, null] : [node.min ?? null, node.max ?? null]);
+const bounds = (node) => (node.learned ? [0, null] : [node.min ?? null, node.max ?? null]);
 
 /** How far a value is inside its bounds (positive) or beyond them (negative); null without either. */
 export function slack(node, value) {
@@ -61,14 +61,28 @@ export function missed(node, value) {
 }
 
 const KINDS = {
-  push: "push", command: "command", refused: "refused", grasped: "grasped", slipped: "slipped", broke: "broke",
-  fell: "fell", stood: "stood", throw: "throw", set: "set", drag: "drag", release: "let go", reload: "files read anew", branch: "went on from here",
+  push: "push",
+  command: "command",
+  refused: "refused",
+  grasped: "grasped",
+  slipped: "slipped",
+  broke: "broke",
+  fell: "fell",
+  stood: "stood",
+  throw: "throw",
+  set: "set",
+  drag: "drag",
+  release: "let go",
+  reload: "files read anew",
+  branch: "went on from here",
 };
 
 export function eventText(event) {
   if (event.kind === "switch") {
     const text = event.text ?? "";
-    return text.includes("→") ? text : `${event.from ? `${event.from} → ` : "→ "}${event.to}${text ? `: ${text}` : ""}`;
+    return text.includes("→")
+      ? text
+      : `${event.from ? `${event.from} → ` : "→ "}${event.to}${text ? `: ${text}` : ""}`;
   }
   const kind = KINDS[event.kind] ?? event.kind;
   const text = (event.text ?? "").replace(/ -(?=\d)/g, " −");
