@@ -207,5 +207,11 @@ export function makeContract(state, command) {
     line.dot.hidden = at === null;
   }
 
-  return { toggle, close, update, light };
+  /** Opens the contract of a controller by its name. */
+  function find(name) {
+    const k = state.body()?.controllers.findIndex((one) => one.name === name) ?? -1;
+    if (k >= 0 && k !== shown) open(k);
+  }
+
+  return { toggle, show: find, close, update, light };
 }

@@ -7,7 +7,7 @@ import { clause, eventText, reasonText } from "./words.js";
 
 const MOST_EVENTS = 300;
 
-export function makeWhy(state, drive, tabs) {
+export function makeWhy(state, drive, tabs, contract) {
   const list = byId("why-list");
   let shown; // the event that is on show
 
@@ -92,7 +92,7 @@ export function makeWhy(state, drive, tabs) {
         "li",
         { data: { name, state: name === event.to ? "active" : refusal === null ? "bids" : "refuses" } },
         dot,
-        make("b", {}, name),
+        make("button", { class: "name", title: "Its contract", onclick: () => look(name) }, name),
         refusal === null ? make("span", { class: "bid" }, fill) : null,
         make("span", { class: "soft" }, refusal === null ? `bids ${amount}` : clause(refusal)),
       );
@@ -108,6 +108,12 @@ export function makeWhy(state, drive, tabs) {
           )
         : null,
     ].filter(Boolean);
+  }
+
+  /** Opens the contract of a bidder. */
+  function look(name) {
+    tabs.open("mind");
+    contract.show(name);
   }
 
   function fill() {
