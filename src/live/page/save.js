@@ -1,0 +1,115 @@
+// What can be taken away: recording, table, scenario, picture, animation. The server answers
+// /save/NAME; a worker answers the message `save` with `saved`.
+
+import { byId, make, show } from "./dom.js";
+
+const PATIENCE = 20000; // ms for a worker's answer
+
+// id, name of the save (null: made here), label, whether it needs the server
+const ALL = [
+  ["recording", "session.trajectory", "Recording"],
+  ["csv", "session.csv", "Table (CSV)"],
+  ["scenario", "session.ron", "Scenario"],
+];
+const PART = [
+  ["gif", "session.gif", "Animation (GIF)"],
+  ["mp4", "session.mp4", "Film (MP4)"],
+  ["svg", "session.svg", "Film strip (SVG)"],
+];
+
+export function makeSave(state, stage, timeline, connection, told) {
+  const waiting = new Map(); // name → what to do with the bytes
+
+  state.on("saved", (message) => {
+    const act = waiting.get(message.name);
+    waiting.delete(message.name);
+    act?.(message.bytes);
+  });
+
+  /** The bytes of a save, from wherever the session is. */
+  async function bytes(name, stretch = null) {
+    if (!connection().worker) {
+      const address = new URL(`save/${name}`, location.href.split("#")[0]);
+      if (stretch) address.search = new URLSearchParams({ from: stretch[0], to: stretch[1] });
+      const answer = await fetch(address);
+      if (!answer.ok)
+        throw new Error((await answer.text()).slice(0, 300) || `${name}: the server says ${answer.status}`);
+      return new Uint8Array(await answer.arrayBuffer());
+    }
+    return new Promise((good, bad) => {
+      const timer = setTimeout(() => bad(new Error(`${name}: no answer`)), PATIENCE);
+      waiting.set(name, (data) => {
+        clearTimeout(timer);
+        good(typeof data === "string" ? new TextEncoder().encode(data) : new Uint8Array(data));
+      });
+      state.send({ do: "save", name });
+    });
+  }
+
+  function hand(name, blob) {
+    const address = URL.createObjectURL(blob);
+    make("a", { href: address, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(address), 10000);
+  }
+
+  async function save(name, stretch) {
+    try {
+      if (stretch) told.note(true, `Drawing ${name} …`, name);
+      hand(name, new Blob([await bytes(name, stretch ? timeline.visible() : null)]));
+      if (stretch) told.note(true, `${name} is ready.`, name);
+    } catch (error) {
+      told.note(false, error.message, name);
+    }
+  }
+
+  function picture() {
+    stage.draw();
+    stage.canvas.toBlob((blob) => {
+      if (blob) hand("aplomb.png", blob);
+    }, "image/png");
+  }
+
+  // A film of the stage as it is seen, made by the browser.
+  let recorder = null;
+  function film() {
+    if (recorder) {
+      recorder.stop();
+      return;
+    }
+    const parts = [];
+    recorder = new MediaRecorder(stage.canvas.captureStream(30), { mimeType: "video/webm" });
+    recorder.ondataavailable = (event) => parts.push(event.data);
+    recorder.onstop = () => {
+      recorder = null;
+      byId("save-webm").textContent = "Film (WebM)";
+      hand("aplomb.webm", new Blob(parts, { type: "video/webm" }));
+    };
+    recorder.start();
+    byId("save-webm").textContent = "Stop the film";
+  }
+
+  const button = (id, label, act) => make("button", { id: `save-${id}`, onclick: act }, label);
+  byId("save-all").append(
+    ...ALL.map(([id, name, label]) => button(id, label, () => save(name, false))),
+    button("png", "Picture (PNG)", picture),
+  );
+  byId("save-part").append(...PART.map(([id, name, label]) => button(id, label, () => save(name, true))));
+  if (typeof MediaRecorder === "function" && MediaRecorder.isTypeSupported("video/webm"))
+    byId("save-part").append(button("webm", "Film (WebM)", film));
+
+  state.on("hello", (hello) => {
+    for (const [id] of PART) show(byId(`save-${id}`), hello.native);
+    if (byId("save-webm")) show(byId("save-webm"), !hello.native);
+    byId("save-part-title").textContent = hello.native ? "What the timeline shows" : "A film";
+  });
+  state.on("texts", () => {
+    if (byId("panel-save").hidden) return;
+    const [from, to] = timeline.visible().map((step) => (step * state.hello.dt).toFixed(2));
+    const text = state.hello.native
+      ? `From ${from} s to ${to} s. Zoom the timeline, with the wheel or two fingers, to choose.`
+      : "The film shows the stage from when you start it until you stop it.";
+    if (byId("save-stretch").textContent !== text) byId("save-stretch").textContent = text;
+  });
+
+  return { bytes };
+}

@@ -1,0 +1,72 @@
+// What the session tells the person: answers over the stage, and errors of watched files, which stay
+// until the file is mended or somebody closes them. An error with line and column stays too.
+
+import { byId, make, icon, show } from "./dom.js";
+
+const MOST = 3;
+const GOOD_FOR = 5000; // ms
+const BAD_FOR = 14000; // ms
+
+export function makeTold(state) {
+  const box = byId("told");
+  const files = byId("files");
+  let lastRefusal = "";
+
+  /** `key`: a later note with the same one replaces it. */
+  function note(ok, text, key = text) {
+    const place = /:\d+:\d+/.test(text);
+    const item = make(
+      "div",
+      { class: "told", data: { ok, key, lasting: !ok && place } },
+      make("span", {}, text),
+      make(
+        "button",
+        { class: "icon plain", "aria-label": "Close", onclick: () => item.remove() },
+        icon("close"),
+      ),
+    );
+    for (const old of [...box.children]) if (old.dataset.key === key) old.remove();
+    box.append(item);
+    if (ok || !place) setTimeout(() => item.remove(), ok ? GOOD_FOR : BAD_FOR);
+    while (box.children.length > MOST) box.firstChild.remove();
+  }
+
+  /** What was wrong in a file is mended once a file has been read well. */
+  function mended() {
+    for (const item of [...box.children]) if (item.dataset.lasting === "true") item.remove();
+  }
+
+  state.on("told", (message) => {
+    if (message.ok) mended();
+    note(message.ok === true, String(message.text));
+  });
+  state.on("files", (message) => {
+    show(files, message.ok !== true);
+    files.replaceChildren();
+    if (message.ok === true) {
+      note(true, String(message.text));
+      return;
+    }
+    files.append(
+      make("span", {}, String(message.text)),
+      make(
+        "button",
+        { class: "icon plain", "aria-label": "Close", onclick: () => show(files, false) },
+        icon("close"),
+      ),
+    );
+  });
+  state.on("events", (events, from) => {
+    if (from === 0) return;
+    for (const event of events.slice(from)) {
+      const text = String(event.text ?? "");
+      const told = [...box.children].some((one) =>
+        one.firstChild.textContent.startsWith(text.split(":")[0]),
+      );
+      if (event.kind !== "refused" || told || `${event.n} ${text}` === lastRefusal) continue;
+      lastRefusal = `${event.n} ${text}`;
+      note(false, `Refused: ${text}`);
+    }
+  });
+  return { note, clear: () => box.replaceChildren() };
+}
