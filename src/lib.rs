@@ -3,8 +3,8 @@
 //!
 //! This is the facade: [`framework`] (characters, world, sensors, contracts, supervisor),
 //! [`controllers`] (the motor skills), [`training`] (optimisation of their numbers), [`scenarios`]
-//! (the shipped ones), [`mod@figure`] (what characters look like) and [`mod@render`] (pictures of
-//! recorded runs). SI units and radians
+//! (the shipped ones), [`mod@figure`] (what characters look like), [`live`] (runs that are watched and
+//! touched) and [`mod@render`] (pictures of recorded runs). SI units and radians
 //! everywhere; frames and signs are those of [`framework`].
 //!
 //! # The pipeline
@@ -35,9 +35,11 @@ pub use aplomb_framework as framework;
 pub use aplomb_training as training;
 
 pub mod figure;
+pub mod live;
 #[allow(
     clippy::disallowed_methods,
     reason = "pictures may differ in a last bit; digests do not depend on them"
 )]
 pub mod render;
 pub mod scenarios;
+pub mod table;

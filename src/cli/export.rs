@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use aplomb::framework::input::{Error, stream_atomically};
-use aplomb::framework::run::{Datum, Export, Trajectory};
+use aplomb::framework::run::Trajectory;
+use aplomb::table::write_csv;
 use clap::Args;
 
 use super::Ending;
@@ -17,8 +18,6 @@ use super::values::number;
 
 /// The formats that are written.
 const FORMATS: [&str; 1] = ["csv"];
-/// Bytes between two writes to the file.
-const BUFFER: usize = 1 << 16;
 
 /// Write a recorded run for other programs
 ///
@@ -84,31 +83,4 @@ fn check_format(path: &Path) -> Result<()> {
         path: path.to_owned(),
         reason: format!("{found}; accepted: .{}", FORMATS.join(", .")),
     })
-}
-
-/// The number of rows written, one every so many s.
-fn write_csv(trajectory: &Trajectory, every: f64, file: impl Write) -> std::io::Result<usize> {
-    let mut export = Export::new(trajectory);
-    let mut csv = csv::WriterBuilder::new()
-        .buffer_capacity(BUFFER)
-        .from_writer(file);
-    csv.write_record(export.columns())?;
-    let (mut row, mut text, mut rows) = (Vec::new(), Vec::new(), 0);
-    for step in export.steps(every) {
-        export.row(step, &mut row);
-        for datum in &row {
-            text.clear();
-            match datum {
-                Datum::Time(s) => write!(text, "{s}")?,
-                Datum::Number(x) => write!(text, "{x}")?,
-                Datum::Name(name) => text.extend(name.as_bytes()),
-                Datum::Nothing => {}
-            }
-            csv.write_field(&text)?;
-        }
-        csv.write_record(None::<&[u8]>)?;
-        rows += 1;
-    }
-    csv.flush()?;
-    Ok(rows)
 }

@@ -22,6 +22,7 @@ mod timeline;
 mod train;
 mod trials;
 mod values;
+mod view;
 mod work;
 
 use std::io::Write;
@@ -53,6 +54,7 @@ Example: aplomb run --push 1:torso:-40 --explain";
 
 #[derive(Debug, Subcommand)]
 enum Action {
+    View(view::ViewArgs),
     Run(run::RunArgs),
     Trials(trials::TrialsArgs),
     Shell(shell::ShellArgs),
@@ -82,6 +84,7 @@ impl Cli {
     fn run(self, out: &mut dyn Write) -> Result<Ending> {
         match self.command {
             None => story::tell(out),
+            Some(Action::View(args)) => args.run(out),
             Some(Action::Run(args)) => args.run(out),
             Some(Action::Trials(args)) => args.run(out),
             Some(Action::Shell(args)) => args.run(out),

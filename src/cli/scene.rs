@@ -59,6 +59,15 @@ impl SceneArgs {
     }
 }
 
+impl SceneArgs {
+    /// All that was named: scenario, characters, repertoires, by shipped name or path.
+    pub(super) fn names(&self, scenario: &Scenario) -> Vec<String> {
+        let roles = scenario.characters.iter();
+        let cast = roles.flat_map(|r| [Some(r.character.clone()), r.repertoire.clone()]);
+        cast.flatten().chain(self.scenario.clone()).collect()
+    }
+}
+
 impl CastArgs {
     /// A scenario by name or path, or someone standing for `otherwise` s, with this cast.
     pub(super) fn apply(

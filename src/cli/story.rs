@@ -44,7 +44,7 @@ pub(super) fn tell(out: &mut dyn Write) -> Result<Ending> {
     )?;
     writeln!(
         out,
-        "To try things yourself: aplomb shell, aplomb run --help"
+        "To watch it and push it yourself: aplomb view story. Without a browser: aplomb shell, aplomb run --help"
     )?;
     Ok(match unmet {
         None => Ending::Done,

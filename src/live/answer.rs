@@ -58,20 +58,15 @@ fn answer(event: &Event, dt: f64) -> EventAnswer<'_> {
         bids,
     } = &event.kind
     {
-        let bid = |b| {
-            let Bid {
-                controller,
-                suitability,
-                refusal,
-            } = b;
-            let refusal = refusal.as_ref().map(ToString::to_string);
-            (controller.as_str(), *suitability, refusal)
-        };
+        let refusal = |b: &Bid| b.refusal.as_ref().map(ToString::to_string);
         answer.from = from.as_deref();
         answer.to = Some(to);
         answer.role = serde_json::to_value(role).ok();
         answer.reason = Some(reason.name());
-        answer.bids = bids.iter().map(bid).collect();
+        answer.bids = bids
+            .iter()
+            .map(|b| (b.controller.as_str(), b.suitability, refusal(b)))
+            .collect();
     }
     answer
 }
@@ -89,7 +84,10 @@ impl Session {
         let dt = self.now.world().settings().dt;
         let from = from.min(self.events.len());
         let until = self.events.len().min(from + AT_ONCE);
-        let list = self.events[from..until].iter().map(|e| answer(e, dt)).collect();
+        let list = self.events[from..until]
+            .iter()
+            .map(|e| answer(e, dt))
+            .collect();
         let is = "events";
         let text = serde_json::to_string(&Events { is, from, list });
         (text.unwrap_or_default(), until)

@@ -134,8 +134,14 @@ impl Session {
             rtf: (self.pace[0] * 100.0).round() / 100.0,
             steps_per_s: self.pace[1].round(),
             dropped: view.dropped,
-            c: (0..self.now.actors().len()).map(|i| self.character(i)).collect(),
-            p: world.prop_poses().flatten().map(|x| short(f64::from(x))).collect(),
+            c: (0..self.now.actors().len())
+                .map(|i| self.character(i))
+                .collect(),
+            p: world
+                .prop_poses()
+                .flatten()
+                .map(|x| short(f64::from(x)))
+                .collect(),
             drag,
             watch: watch.map(|f| short(f.value(self.now.sensors(0)))).collect(),
             inspect: view.inspect.and_then(|(c, k)| self.inspected(c, k)),

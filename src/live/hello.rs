@@ -114,7 +114,8 @@ impl Session {
     #[must_use]
     pub fn hello(&self, native: bool) -> String {
         let files = self.registry.files();
-        let repertoires = files.filter_map(|f| f.strip_prefix("repertoires/")?.strip_suffix(".ron"));
+        let repertoires =
+            files.filter_map(|f| f.strip_prefix("repertoires/")?.strip_suffix(".ron"));
         let scenario = &self.scene.scenario;
         let hello = Hello {
             is: "hello",
@@ -127,7 +128,9 @@ impl Session {
                 parameters: parameters(scenario, &self.now),
             },
             dt: scenario.settings.dt,
-            characters: (0..self.now.actors().len()).map(|i| self.character_hello(i)).collect(),
+            characters: (0..self.now.actors().len())
+                .map(|i| self.character_hello(i))
+                .collect(),
             props: props(&self.now, 0),
             shipped: Shipped {
                 scenarios: scenarios::shipped().into_iter().map(|(n, _)| n).collect(),
@@ -167,7 +170,10 @@ impl Session {
             figure: crate::figure::figure(model),
             feet: model.feet.iter().map(|f| f.link).collect(),
             joints: joints.collect(),
-            controllers: supervisor.controllers().map(|c| controller(c.contract())).collect(),
+            controllers: supervisor
+                .controllers()
+                .map(|c| controller(c.contract()))
+                .collect(),
         }
     }
 
@@ -222,7 +228,9 @@ fn parameters(scenario: &Scenario, run: &Simulation) -> Vec<ParameterHello> {
         restarts: true,
     });
     let settings = run.world().settings();
-    let common = SETTINGS.iter().filter(|s| !scenario.parameters.contains_key(s.0));
+    let common = SETTINGS
+        .iter()
+        .filter(|s| !scenario.parameters.contains_key(s.0));
     let common = common.map(|(name, min, max, restarts)| {
         let value = match *name {
             "friction" => settings.friction,
@@ -244,8 +252,8 @@ fn parameters(scenario: &Scenario, run: &Simulation) -> Vec<ParameterHello> {
 /// Names that can be watched: the vocabulary, and the angle and rate of every joint.
 fn features(model: &Model) -> Vec<String> {
     let plain = Feature::vocabulary().map(|(name, ..)| name.to_owned());
-    let families = model.joints().flat_map(|j| {
-        ["angle", "rate"].map(|family| format!("{family}.{}", j.name))
-    });
+    let families = model
+        .joints()
+        .flat_map(|j| ["angle", "rate"].map(|family| format!("{family}.{}", j.name)));
     plain.chain(families).collect()
 }

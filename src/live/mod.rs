@@ -4,7 +4,7 @@
 //! [`View`] a watcher. Nothing in it reads files or clocks: the server, the page's WebAssembly and
 //! tests drive the same session.
 
-mod answer;
+pub mod answer;
 mod clauses;
 mod frame;
 mod hello;
@@ -13,12 +13,15 @@ mod opened;
 mod request;
 mod save;
 mod scene;
+pub mod server;
 mod session;
+mod watcher;
 
+pub use frame::View;
 pub use history::History;
 pub use opened::Opened;
 pub use request::{Body, LARGEST_MESSAGE, LARGEST_OPENED, Request, Thrown};
 pub use save::Replay;
 pub use scene::{Scene, SceneNames};
 pub use session::Session;
-pub use frame::View;
+pub use watcher::Watcher;

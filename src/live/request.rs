@@ -197,9 +197,8 @@ impl Request {
     /// # Errors
     /// A message that is too large, no request, or out of bounds.
     pub fn parse(text: &str) -> Result<Self> {
-        let refuse = |problem: String, accepted: &str| {
-            Err(Error::invalid("message", "", problem, accepted))
-        };
+        let refuse =
+            |problem: String, accepted: &str| Err(Error::invalid("message", "", problem, accepted));
         let bytes = text.len();
         if bytes > LARGEST_OPENED {
             return refuse(format!("{bytes} bytes"), "at most 512 kB");
@@ -263,15 +262,29 @@ mod tests {
             ("", "wrong"),
             ("{}", "do"),
             (r#"{"do":"dance"}"#, "dance"),
-            (r#"{"do":"speed","factor":9}"#, "factor is 9; accepted: 0.05 to 4"),
+            (
+                r#"{"do":"speed","factor":9}"#,
+                "factor is 9; accepted: 0.05 to 4",
+            ),
             (r#"{"do":"step","steps":0}"#, "steps is 0"),
-            (r#"{"do":"push","link":"torso","impulse":[1e9,0]}"#, "impulse"),
+            (
+                r#"{"do":"push","link":"torso","impulse":[1e9,0]}"#,
+                "impulse",
+            ),
             (r#"{"do":"push","link":"torso","impulse":[1]}"#, "wrong"),
         ] {
             let told = Request::parse(text).unwrap_err().to_string();
             assert!(told.contains(why), "{text}: {told}");
         }
-        let long = format!(r#"{{"do":"command","text":"{}"}}"#, "x".repeat(LARGEST_MESSAGE));
-        assert!(Request::parse(&long).unwrap_err().to_string().contains("4 kB"));
+        let long = format!(
+            r#"{{"do":"command","text":"{}"}}"#,
+            "x".repeat(LARGEST_MESSAGE)
+        );
+        assert!(
+            Request::parse(&long)
+                .unwrap_err()
+                .to_string()
+                .contains("4 kB")
+        );
     }
 }

@@ -128,7 +128,11 @@ impl Scene {
             Opened::Scenario => {
                 let scenario = Scenario::parse(source)?;
                 for (i, role) in scenario.characters.iter().enumerate() {
-                    let shipped = shipped_only(role.character.as_str(), role.repertoire.as_deref(), registry);
+                    let shipped = shipped_only(
+                        role.character.as_str(),
+                        role.repertoire.as_deref(),
+                        registry,
+                    );
                     shipped.map_err(|e| scenario.locate(e.inside(("characters", i))))?;
                 }
                 return Self::new(scenario, registry);

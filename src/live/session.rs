@@ -6,8 +6,10 @@ use aplomb_framework::control::{Registry, Supervisor};
 use aplomb_framework::events::Event;
 use aplomb_framework::input::{Error, Result, Source};
 use aplomb_framework::run::Simulation;
-use aplomb_framework::scenario::{Changeable, DragTarget, LONGEST_RUN, MOST_INPUTS, ScheduledInput};
 use aplomb_framework::scenario::PUSH_DURATION;
+use aplomb_framework::scenario::{
+    Changeable, DragTarget, LONGEST_RUN, MOST_INPUTS, ScheduledInput,
+};
 
 use crate::live::frame::View;
 use crate::live::history::{Deed, History};
@@ -157,7 +159,7 @@ impl Session {
         let (dt, before) = (self.dt(), self.step);
         if !self.paused {
             self.owed = (self.owed + seconds * self.speed).min(LAG.max(seconds * self.speed));
-            let due = ((self.owed / dt) as u64).min(AT_ONCE);
+            let due = ((self.owed / dt + 1e-6) as u64).min(AT_ONCE);
             for _ in 0..due {
                 self.forward();
             }
@@ -180,7 +182,8 @@ impl Session {
             return;
         }
         if self.again || self.step < self.end {
-            self.history.repeat(&mut self.now, &self.scene.scenario, self.step);
+            self.history
+                .repeat(&mut self.now, &self.scene.scenario, self.step);
             self.again = false;
         }
         self.now.step();
@@ -282,7 +285,9 @@ impl Session {
             } => {
                 let character = self.existing(character)?;
                 let pool = self.now.actors()[character].supervisor.controllers();
-                view.inspect = controller.filter(|c| *c < pool.count()).map(|c| (character, c));
+                view.inspect = controller
+                    .filter(|c| *c < pool.count())
+                    .map(|c| (character, c));
             }
         }
         Ok(Changed::Nothing)
@@ -310,7 +315,8 @@ impl Session {
             self.branch();
         }
         let deed = Deed::Input(input);
-        self.history.act(&mut self.now, &self.scene.scenario, self.step, deed)
+        self.history
+            .act(&mut self.now, &self.scene.scenario, self.step, deed)
     }
 
     fn target(&self, body: &Body) -> Result<DragTarget> {
@@ -325,7 +331,11 @@ impl Session {
                 let place = place.ok_or_else(|| Error::unknown("prop", name, props))?;
                 Ok(DragTarget::Prop(place))
             }
-            _ => Err(Error::refused("drag", "of nothing or of two", "a link or a prop")),
+            _ => Err(Error::refused(
+                "drag",
+                "of nothing or of two",
+                "a link or a prop",
+            )),
         }
     }
 
@@ -333,7 +343,8 @@ impl Session {
         let kind = thrown.kind();
         let taken: Vec<&str> = self.now.world().props().map(|p| p.name.as_str()).collect();
         let free = |name: &String| !taken.contains(&name.as_str());
-        let mut names = std::iter::once(kind.to_owned()).chain((2..).map(|n| format!("{kind}_{n}")));
+        let mut names =
+            std::iter::once(kind.to_owned()).chain((2..).map(|n| format!("{kind}_{n}")));
         let name = names.find(free).unwrap_or_default();
         let at = self.at();
         let prop = thrown.prop(name);
@@ -427,7 +438,9 @@ impl Session {
         let old = &self.now.actors()[character].supervisor;
         let renewed = old.renewed(new, self.now.sensors(character), same);
         let deed = Deed::Supervisor(character, Box::new(renewed));
-        let acted = self.history.act(&mut self.now, &self.scene.scenario, self.step, deed);
+        let acted = self
+            .history
+            .act(&mut self.now, &self.scene.scenario, self.step, deed);
         debug_assert!(acted.is_ok(), "a supervisor is always taken");
         self.scene.cast[character].1 = new.clone();
         self.generation += 1;

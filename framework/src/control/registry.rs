@@ -83,6 +83,12 @@ impl ControllerFile {
         Ok(Self { source, ..file })
     }
 
+    /// All that it says, whatever its spaces and comments.
+    #[must_use]
+    pub fn whole_text(&self) -> String {
+        format!("{} {:?} {}", self.kind, self.contract, self.spec.get_ron())
+    }
+
     /// Its parameters.
     ///
     /// # Errors

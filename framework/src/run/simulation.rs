@@ -219,7 +219,10 @@ impl Simulation {
 
     /// The same for a run in which more props will appear than are scheduled: each with its time, s.
     pub fn record_with(&mut self, scenario: &str, seed: u64, more: Vec<(f64, Prop)>) {
-        let scheduled = self.schedule.props().map(|(time, prop)| (time, prop.clone()));
+        let scheduled = self
+            .schedule
+            .props()
+            .map(|(time, prop)| (time, prop.clone()));
         let mut later: Vec<(f64, Prop)> = scheduled.chain(more).collect();
         later.sort_by(|a, b| a.0.total_cmp(&b.0));
         let later = later.into_iter().map(|(_, prop)| prop);

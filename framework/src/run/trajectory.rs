@@ -206,6 +206,30 @@ impl Trajectory {
         self.len().saturating_sub(1) as f64 * self.header.dt
     }
 
+    /// A part of the recording, with the events in it; its time begins at 0.
+    #[must_use]
+    pub fn stretch(&self, steps: std::ops::Range<usize>) -> Self {
+        let to = steps.end.min(self.len());
+        let from = steps.start.min(to);
+        let dt = self.header.dt;
+        let [begins, ends] = [from, to].map(|step| (step as f64 - 0.5) * dt);
+        let within = self
+            .events
+            .iter()
+            .filter(|e| e.time > begins && e.time < ends);
+        let later = |e: &Event| Event {
+            time: e.time - from as f64 * dt,
+            ..e.clone()
+        };
+        Self {
+            header: self.header.clone(),
+            models: self.models.clone(),
+            events: within.map(later).collect(),
+            rows: self.rows[from * self.width..to * self.width].to_vec(),
+            width: self.width,
+        }
+    }
+
     /// The step nearest to a time.
     #[must_use]
     pub fn step_at(&self, time: f64) -> usize {

@@ -79,11 +79,6 @@ impl Skill {
     }
 }
 
-/// All that a controller's file says.
-pub(crate) fn whole_text(file: &ControllerFile) -> String {
-    format!("{} {:?} {}", file.kind, file.contract, file.spec.get_ron())
-}
-
 fn surroundings(files: &[ControllerFile], but: usize, model: &Model) -> u64 {
     let mut hash = Xxh3::new();
     hash.update(model.source.as_bytes());
@@ -91,7 +86,7 @@ fn surroundings(files: &[ControllerFile], but: usize, model: &Model) -> u64 {
         let text = if place == but {
             String::new()
         } else {
-            whole_text(file)
+            file.whole_text()
         };
         hash.update(&(text.len() as u64).to_le_bytes());
         hash.update(text.as_bytes());

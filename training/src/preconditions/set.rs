@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
-use crate::exercise::skill::{Skill, whole_text};
+use crate::exercise::skill::Skill;
 use crate::preconditions::learning::dataset::Dataset;
 use crate::preconditions::rollout::{Sample, Trial};
 use crate::search::growing;
@@ -140,7 +140,7 @@ pub fn header(
     seed: u64,
     count: usize,
 ) -> SetHeader {
-    let own = xxh3_64(whole_text(&skill.file).as_bytes()) ^ skill.surroundings.rotate_left(1);
+    let own = xxh3_64(skill.file.whole_text().as_bytes()) ^ skill.surroundings.rotate_left(1);
     SetHeader {
         controller: skill.name().to_owned(),
         character: skill.model.name.clone(),

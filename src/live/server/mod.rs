@@ -1,0 +1,204 @@
+//! The live view's server: one session, any number of browsers.
+//!
+//! [`Session`], a listening socket → page, WebSocket, saves. The session runs in the caller's thread
+//! at its own pace; every connection has a thread and a bounded box of what is still to be sent, so
+//! that nobody who is slow, silent or gone disturbs the run or the others.
+
+mod connection;
+mod http;
+mod outbox;
+mod page;
+mod reload;
+mod saves;
+
+use std::collections::BTreeMap;
+use std::net::{IpAddr, SocketAddr, TcpListener};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::time::{Duration, Instant};
+
+use aplomb_framework::input::{Error, Result};
+
+use crate::live::save::Replay;
+use crate::live::session::Session;
+use crate::live::watcher::Watcher;
+
+use outbox::Outbox;
+pub use reload::Reload;
+
+/// At most so many connections at a time; others are turned away.
+const MOST_CONNECTIONS: usize = 64;
+/// Messages that wait to be heard.
+const MOST_WAITING: usize = 1024;
+/// Messages that are heard between two frames.
+const AT_ONCE: usize = 256;
+/// Frames a second.
+const FRAMES: f64 = 60.0;
+/// How long the doorkeeper sleeps while nobody knocks.
+const DOORKEEPER: Duration = Duration::from_millis(5);
+
+/// What connections say to the session.
+enum Said {
+    Joined(u64, Arc<Outbox>),
+    Text(u64, String),
+    Left(u64),
+    /// Somebody wants what was done so far.
+    Save(SyncSender<Replay>),
+}
+
+/// A server that listens.
+#[derive(Debug)]
+pub struct Server {
+    listener: TcpListener,
+    address: SocketAddr,
+}
+
+impl Server {
+    /// Listens on an address; port 0 takes a free one.
+    ///
+    /// # Errors
+    /// A port that is taken, an address that is not this computer's.
+    pub fn bind(host: IpAddr, port: u16) -> Result<Self> {
+        let refused = |e: std::io::Error| {
+            let accepted = "an address of this computer and a free port (0 takes any)";
+            Error::invalid("view", "address", format!("{host}:{port}: {e}"), accepted)
+        };
+        let listener = TcpListener::bind((host, port)).map_err(refused)?;
+        listener.set_nonblocking(true).map_err(refused)?;
+        let address = listener.local_addr().map_err(refused)?;
+        Ok(Self { listener, address })
+    }
+
+    /// Where it listens.
+    #[must_use]
+    pub fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// Serves until `stop` is set. `reload` looks after the files that the scene was read from.
+    pub fn serve(self, mut session: Session, mut reload: Option<Reload>, stop: &Arc<AtomicBool>) {
+        let (say, heard) = sync_channel(MOST_WAITING);
+        let doorkeeper = {
+            let (stop, address) = (Arc::clone(stop), self.address);
+            std::thread::spawn(move || keep_door(&self.listener, address, &say, &stop))
+        };
+        let mut watchers = BTreeMap::new();
+        let between = Duration::from_secs_f64(1.0 / FRAMES);
+        let (mut last, mut next) = (Instant::now(), Instant::now() + between);
+        while !stop.load(Ordering::Relaxed) {
+            for said in heard.try_iter().take(AT_ONCE) {
+                hear(said, &mut session, &mut watchers);
+            }
+            if let Some(news) = reload.as_mut().and_then(|r| r.look(&mut session)) {
+                watchers.values().for_each(|w| w.outbox.put(news.clone()));
+            }
+            let now = Instant::now();
+            tell(&session, &mut watchers);
+            session.advance((now - last).as_secs_f64());
+            last = now;
+            tell(&session, &mut watchers);
+            for Joined { watcher, outbox } in watchers.values_mut() {
+                watcher.view.dropped = outbox.dropped();
+                outbox.put_frame(session.frame(&watcher.view));
+            }
+            let now = Instant::now();
+            next = next.max(now);
+            wait(&heard, next - now, &mut session, &mut watchers);
+            next += between;
+        }
+        watchers.values().for_each(|w| w.outbox.close());
+        // It looks at `stop` every few milliseconds.
+        drop(doorkeeper.join());
+    }
+}
+
+struct Joined {
+    watcher: Watcher,
+    outbox: Arc<Outbox>,
+}
+
+/// Listens to the connections until the next frame is due.
+fn wait(
+    heard: &Receiver<Said>,
+    time: Duration,
+    session: &mut Session,
+    watchers: &mut BTreeMap<u64, Joined>,
+) {
+    let until = Instant::now() + time;
+    loop {
+        let left = until.saturating_duration_since(Instant::now());
+        match heard.recv_timeout(left) {
+            Ok(said) if !left.is_zero() => hear(said, session, watchers),
+            Ok(said) => return hear(said, session, watchers),
+            Err(_) => return std::thread::sleep(until.saturating_duration_since(Instant::now())),
+        }
+    }
+}
+
+fn hear(said: Said, session: &mut Session, watchers: &mut BTreeMap<u64, Joined>) {
+    match said {
+        Said::Joined(id, outbox) => {
+            let watcher = Watcher::default();
+            watchers.insert(id, Joined { watcher, outbox });
+        }
+        Said::Left(id) => drop(watchers.remove(&id)),
+        Said::Text(id, text) => {
+            if let Some(Joined { watcher, outbox }) = watchers.get_mut(&id)
+                && let Some(refusal) = watcher.ask(session, &text)
+            {
+                outbox.put(refusal);
+            }
+        }
+        // Who asked may be gone.
+        Said::Save(answer) => drop(answer.try_send(session.replay())),
+    }
+}
+
+fn tell(session: &Session, watchers: &mut BTreeMap<u64, Joined>) {
+    for Joined { watcher, outbox } in watchers.values_mut() {
+        for news in watcher.news(session, true) {
+            outbox.put(news);
+        }
+    }
+}
+
+/// Lets in who knocks, up to so many.
+fn keep_door(
+    listener: &TcpListener,
+    address: SocketAddr,
+    say: &SyncSender<Said>,
+    stop: &Arc<AtomicBool>,
+) {
+    let inside = Arc::new(AtomicUsize::new(0));
+    let saves = Arc::new(AtomicUsize::new(0));
+    let mut id = 0;
+    while !stop.load(Ordering::Relaxed) {
+        let Ok((stream, _)) = listener.accept() else {
+            std::thread::sleep(DOORKEEPER);
+            continue;
+        };
+        if inside.fetch_add(1, Ordering::Relaxed) >= MOST_CONNECTIONS {
+            inside.fetch_sub(1, Ordering::Relaxed);
+            http::turn_away(stream);
+            continue;
+        }
+        id += 1;
+        let visitor = connection::Visitor {
+            id,
+            address,
+            say: say.clone(),
+            saves: Arc::clone(&saves),
+            stop: Arc::clone(stop),
+        };
+        let inside_now = Arc::clone(&inside);
+        let visit = move || {
+            visitor.visit(stream);
+            inside_now.fetch_sub(1, Ordering::Relaxed);
+        };
+        let thread = std::thread::Builder::new().name("visitor".into());
+        if thread.spawn(visit).is_err() {
+            inside.fetch_sub(1, Ordering::Relaxed);
+        }
+    }
+}
