@@ -120,7 +120,7 @@ export function makePlots(state, tabs) {
         height: Math.max(box.clientHeight, 80),
         cursor: { drag: { x: false, y: false }, points: { size: 6 } },
         legend: { show: false },
-      padding: [8, 10, 0, 0],
+        padding: [8, 10, 0, 0],
         scales: {
           x: { time: false, range: () => [trace.now - SPAN, Math.max(trace.now, trace.now - SPAN + 1)] },
           y: options.y ?? {},
