@@ -29,6 +29,11 @@ pub struct View {
 }
 
 impl View {
+    /// Wants nothing beside the stage any more: the scene has other features and controllers.
+    pub(super) fn forget(&mut self) {
+        (self.features, self.inspect) = (Vec::new(), None);
+    }
+
     pub(super) fn watch(&mut self, names: &[String], now: &Simulation) -> Result<()> {
         let model = now.world().characters()[0].body.model();
         let feature = |name: &String| {

@@ -28,10 +28,7 @@ impl Watcher {
         if self.scene != Some(session.generation) {
             self.scene = Some(session.generation);
             (self.cuts, self.events, self.props) = (session.cuts, 0, props);
-            self.view = View {
-                dropped: self.view.dropped,
-                ..View::default()
-            };
+            self.view.forget();
             news.push(session.hello(native));
             news.push(self.happened(session));
         }
