@@ -7,7 +7,7 @@ use std::net::IpAddr;
 
 use anyhow::Result;
 use aplomb::live::server::{Reload, Server};
-use aplomb::live::{Scene, SceneNames, Session};
+use aplomb::live::{LiveScene, SceneNames, Session};
 use clap::Args;
 
 use super::Ending;
@@ -47,7 +47,7 @@ pub(super) struct ViewArgs {
 impl ViewArgs {
     pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         let registry = aplomb::controllers::registry();
-        let scene = Scene::new(self.scene.load(OTHERWISE, &registry)?, &registry)?;
+        let scene = LiveScene::new(self.scene.load(OTHERWISE, &registry)?, &registry)?;
         let server = Server::bind(self.host, self.port)?;
         let url = format!("http://{}/", server.address());
         writeln!(out, "{url}")?;
@@ -65,7 +65,7 @@ impl ViewArgs {
             let scenario = arguments
                 .load(OTHERWISE, &kinds)
                 .map_err(|e| format!("{e:#}"))?;
-            Scene::new(scenario, &kinds).map_err(|e| e.to_string())
+            LiveScene::new(scenario, &kinds).map_err(|e| e.to_string())
         };
         let reload = Reload::new(Box::new(build), &used, &scene, &registry);
         let session = Session::with(scene, SceneNames::default(), registry)?;

@@ -32,7 +32,14 @@ struct Hello<'a> {
     characters: Vec<CharacterHello>,
     props: Vec<PropHello>,
     shipped: Shipped<'a>,
-    features: Vec<String>,
+    features: Vec<FeatureHello>,
+}
+
+#[derive(Serialize)]
+struct FeatureHello {
+    name: String,
+    unit: &'static str,
+    meaning: &'static str,
 }
 
 #[derive(Serialize)]
@@ -59,6 +66,7 @@ struct CharacterHello {
     links: Vec<LinkHello>,
     figure: Vec<crate::figure::FigurePart>,
     feet: Vec<usize>,
+    trunk: usize,
     joints: Vec<JointHello>,
     controllers: Vec<ControllerHello>,
 }
@@ -169,6 +177,7 @@ impl Session {
             links: links.collect(),
             figure: crate::figure::figure(model),
             feet: model.feet.iter().map(|f| f.link).collect(),
+            trunk: model.trunk,
             joints: joints.collect(),
             controllers: supervisor
                 .controllers()
@@ -249,11 +258,22 @@ fn parameters(scenario: &Scenario, run: &Simulation) -> Vec<ParameterHello> {
     own.chain(common).collect()
 }
 
-/// Names that can be watched: the vocabulary, and the angle and rate of every joint.
-fn features(model: &Model) -> Vec<String> {
-    let plain = Feature::vocabulary().map(|(name, ..)| name.to_owned());
-    let families = model
-        .joints()
-        .flat_map(|j| ["angle", "rate"].map(|family| format!("{family}.{}", j.name)));
-    plain.chain(families).collect()
+/// What can be watched: the vocabulary, and the angle and rate of every joint.
+fn features(model: &Model) -> Vec<FeatureHello> {
+    let hello = |(name, unit, meaning): (&str, &'static str, &'static str)| FeatureHello {
+        name: name.to_owned(),
+        unit,
+        meaning,
+    };
+    let plain = Feature::vocabulary().map(hello);
+    let joints = model.joints().flat_map(|j| {
+        let (angle, rate) = (format!("angle.{}", j.name), format!("velocity.{}", j.name));
+        [
+            (angle, "rad", "angle of the joint"),
+            (rate, "rad/s", "angular velocity of the joint"),
+        ]
+    });
+    plain
+        .chain(joints.map(|(name, unit, meaning)| hello((&name, unit, meaning))))
+        .collect()
 }

@@ -5,6 +5,7 @@
 //! tests drive the same session.
 
 pub mod answer;
+mod ask;
 mod clauses;
 mod frame;
 mod hello;
@@ -20,8 +21,8 @@ mod watcher;
 pub use frame::View;
 pub use history::History;
 pub use opened::Opened;
-pub use request::{Body, LARGEST_MESSAGE, LARGEST_OPENED, Request, Thrown};
+pub use request::{DragBody, LARGEST_MESSAGE, LARGEST_OPENED, Request, Thrown};
 pub use save::Replay;
-pub use scene::{Scene, SceneNames};
+pub use scene::{LiveScene, SceneNames};
 pub use session::Session;
 pub use watcher::Watcher;

@@ -51,7 +51,7 @@ pub enum Request {
     Drag {
         /// What.
         #[serde(flatten)]
-        body: Body,
+        body: DragBody,
         /// Where it is held, in its frame, m.
         point: Point,
         /// Where to, world, m.
@@ -122,7 +122,7 @@ fn one() -> u32 {
 
 /// What is dragged.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct Body {
+pub struct DragBody {
     /// Place of the character.
     #[serde(default)]
     pub character: usize,

@@ -1,6 +1,6 @@
 //! Who takes part in a live run, and where.
 //!
-//! names or texts → [`Scene`] → simulation.
+//! names or texts → [`LiveScene`] → simulation.
 
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ pub struct SceneNames {
 
 /// A scenario with its characters and their supervisors, ready to begin.
 #[derive(Debug, Clone)]
-pub struct Scene {
+pub struct LiveScene {
     /// What happens by itself.
     pub scenario: Scenario,
     /// One pair a character of the scenario.
@@ -56,7 +56,7 @@ impl SceneNames {
     ///
     /// # Errors
     /// Unknown names, unreadable or invalid files, with the place of what is refused.
-    pub fn scene(&self, registry: &Registry) -> Result<Scene> {
+    pub fn scene(&self, registry: &Registry) -> Result<LiveScene> {
         let mut scenario = match &self.scenario {
             Some(name) => scenarios::load(name)?,
             None => Scenario::standing("humanoid", OTHERWISE),
@@ -69,7 +69,7 @@ impl SceneNames {
         if self.repertoire.is_some() {
             first.repertoire.clone_from(&self.repertoire);
         }
-        Scene::new(scenario, registry)
+        LiveScene::new(scenario, registry)
     }
 }
 
@@ -89,7 +89,7 @@ fn shipped_only(character: &str, repertoire: Option<&str>, registry: &Registry) 
     }
 }
 
-impl Scene {
+impl LiveScene {
     /// A scenario with the characters and repertoires that it names.
     ///
     /// # Errors

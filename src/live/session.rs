@@ -1,20 +1,15 @@
-//! A live run: what watchers ask for is done between its steps.
+//! A live run: its steps at the watchers' pace, back in time, and on from there.
 //!
-//! [`Request`]s, seconds → [`Session`] → simulation, events.
+//! scene, seconds that pass → [`Session`] → simulation, events.
 
 use aplomb_framework::control::{Registry, Supervisor};
 use aplomb_framework::events::Event;
-use aplomb_framework::input::{Error, Result, Source};
+use aplomb_framework::input::Result;
 use aplomb_framework::run::Simulation;
-use aplomb_framework::scenario::PUSH_DURATION;
-use aplomb_framework::scenario::{
-    Changeable, DragTarget, LONGEST_RUN, MOST_INPUTS, ScheduledInput,
-};
+use aplomb_framework::scenario::LONGEST_RUN;
 
-use crate::live::frame::View;
 use crate::live::history::{Deed, History};
-use crate::live::request::{Body, Request, Thrown};
-use crate::live::scene::{Scene, SceneNames};
+use crate::live::scene::{LiveScene, SceneNames};
 
 /// s that a run may lag behind before it gives up catching up.
 const LAG: f64 = 0.1;
@@ -22,15 +17,6 @@ const LAG: f64 = 0.1;
 const AT_ONCE: u64 = 200;
 /// Weight of the newest measurement of the pace.
 const NEWEST: f64 = 0.1;
-
-/// What a request has changed, for watchers to be told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Changed {
-    /// Nothing that is not in the next frame.
-    Nothing,
-    /// The scene: everything is told anew.
-    Scene,
-}
 
 /// A run that is watched and touched.
 ///
@@ -52,7 +38,7 @@ pub(super) enum Changed {
 #[derive(Debug)]
 pub struct Session {
     pub(super) registry: Registry,
-    pub(super) scene: Scene,
+    pub(super) scene: LiveScene,
     /// What the scene was made of, as far as it has names.
     pub(super) names: SceneNames,
     pub(super) history: History,
@@ -91,7 +77,7 @@ impl Session {
     ///
     /// # Errors
     /// Links, joints or commands that its characters lack.
-    pub fn with(scene: Scene, names: SceneNames, registry: Registry) -> Result<Self> {
+    pub fn with(scene: LiveScene, names: SceneNames, registry: Registry) -> Result<Self> {
         let now = scene.begin()?;
         Ok(Self {
             history: History::new(&now),
@@ -149,7 +135,7 @@ impl Session {
         self.paused
     }
 
-    fn dt(&self) -> f64 {
+    pub(super) fn dt(&self) -> f64 {
         self.now.world().settings().dt
     }
 
@@ -176,7 +162,7 @@ impl Session {
     }
 
     /// One step; in the past what was done then is done again.
-    fn forward(&mut self) {
+    pub(super) fn forward(&mut self) {
         if self.step as f64 * self.dt() >= LONGEST_RUN {
             self.paused = true;
             return;
@@ -198,182 +184,8 @@ impl Session {
         }
     }
 
-    /// Does what is asked for. `view` is the watcher's.
-    ///
-    /// # Errors
-    /// What cannot be done, and why; nothing has changed then.
-    pub fn ask(&mut self, view: &mut View, request: Request) -> Result<()> {
-        let changed = self.answer(view, request)?;
-        if changed == Changed::Scene {
-            self.generation += 1;
-        }
-        Ok(())
-    }
-
-    fn answer(&mut self, view: &mut View, request: Request) -> Result<Changed> {
-        match request {
-            Request::Play => self.paused = false,
-            Request::Pause => self.paused = true,
-            Request::Step { steps } => {
-                self.paused = true;
-                for _ in 0..steps {
-                    self.forward();
-                }
-            }
-            Request::Speed { factor } => self.speed = factor,
-            Request::Seek { step } => self.seek(step),
-            Request::Branch => self.branch(),
-            Request::Push {
-                character,
-                link,
-                impulse: [impulse, upward],
-            } => self.act(ScheduledInput::Push {
-                at: self.at(),
-                link,
-                impulse: impulse.into(),
-                upward: upward.into(),
-                over: PUSH_DURATION,
-                character: self.existing(character)?,
-            })?,
-            Request::Command { character, text } => self.act(ScheduledInput::Command {
-                at: self.at(),
-                text,
-                character: self.existing(character)?,
-            })?,
-            Request::Drag { body, point, to } => {
-                let what = self.target(&body)?;
-                let at = self.at();
-                self.act(ScheduledInput::Drag {
-                    at,
-                    what,
-                    point,
-                    to,
-                })?;
-            }
-            Request::Release => self.act(ScheduledInput::Release { at: self.at() })?,
-            Request::Throw(thrown) => self.throw(&thrown)?,
-            Request::Set { name, value } => return self.set(&name, value),
-            Request::Reset => {
-                self.begin(self.scene.clone())?;
-                return Ok(Changed::Scene);
-            }
-            Request::Load {
-                scenario,
-                character,
-                repertoire,
-            } => {
-                let names = SceneNames {
-                    scenario,
-                    character,
-                    repertoire,
-                };
-                names.check_shipped(&self.registry)?;
-                let scene = names.scene(&self.registry)?;
-                self.begin(scene)?;
-                self.names = names;
-                return Ok(Changed::Scene);
-            }
-            Request::Open { name, text } => {
-                let scene = self.scene.with(&Source::new(name, text), &self.registry)?;
-                self.begin(scene)?;
-                return Ok(Changed::Scene);
-            }
-            Request::Watch { features } => view.watch(&features, &self.now)?,
-            Request::Inspect {
-                character,
-                controller,
-            } => {
-                let character = self.existing(character)?;
-                let pool = self.now.actors()[character].supervisor.controllers();
-                view.inspect = controller
-                    .filter(|c| *c < pool.count())
-                    .map(|c| (character, c));
-            }
-        }
-        Ok(Changed::Nothing)
-    }
-
-    /// Now, as the time of an input.
-    fn at(&self) -> aplomb_framework::scenario::Number {
-        (self.step as f64 * self.dt()).into()
-    }
-
-    fn existing(&self, character: usize) -> Result<usize> {
-        if character < self.now.actors().len() {
-            return Ok(character);
-        }
-        let accepted = format!("below {}", self.now.actors().len());
-        Err(Error::refused("character", character, accepted))
-    }
-
-    fn act(&mut self, input: ScheduledInput) -> Result<()> {
-        if self.history.inputs() >= MOST_INPUTS - self.scene.scenario.events.len() {
-            let accepted = "fewer inputs; reset to begin anew";
-            return Err(Error::refused("inputs", MOST_INPUTS, accepted));
-        }
-        if self.is_past() {
-            self.branch();
-        }
-        let deed = Deed::Input(input);
-        self.history
-            .act(&mut self.now, &self.scene.scenario, self.step, deed)
-    }
-
-    fn target(&self, body: &Body) -> Result<DragTarget> {
-        match (&body.link, &body.prop) {
-            (Some(name), None) => Ok(DragTarget::Link {
-                name: name.clone(),
-                character: self.existing(body.character)?,
-            }),
-            (None, Some(name)) => {
-                let props: Vec<&str> = self.now.world().props().map(|p| p.name.as_str()).collect();
-                let place = props.iter().position(|p| p == name);
-                let place = place.ok_or_else(|| Error::unknown("prop", name, props))?;
-                Ok(DragTarget::Prop(place))
-            }
-            _ => Err(Error::refused(
-                "drag",
-                "of nothing or of two",
-                "a link or a prop",
-            )),
-        }
-    }
-
-    fn throw(&mut self, thrown: &Thrown) -> Result<()> {
-        let kind = thrown.kind();
-        let taken: Vec<&str> = self.now.world().props().map(|p| p.name.as_str()).collect();
-        let free = |name: &String| !taken.contains(&name.as_str());
-        let mut names =
-            std::iter::once(kind.to_owned()).chain((2..).map(|n| format!("{kind}_{n}")));
-        let name = names.find(free).unwrap_or_default();
-        let at = self.at();
-        let prop = thrown.prop(name);
-        self.act(ScheduledInput::Throw { at, prop })
-    }
-
-    fn set(&mut self, name: &str, value: f64) -> Result<Changed> {
-        // The scenario's own bounds, also for what takes effect at once.
-        let mut changed = self.scene.clone();
-        changed.scenario.set(name, value)?;
-        let setting = match name {
-            "friction" => Changeable::Friction,
-            "gravity" => Changeable::Gravity,
-            _ => {
-                self.begin(changed)?;
-                return Ok(Changed::Scene);
-            }
-        };
-        if self.scene.scenario.parameters.contains_key(name) {
-            self.begin(changed)?;
-            return Ok(Changed::Scene);
-        }
-        let (at, value) = (self.at(), value.into());
-        self.act(ScheduledInput::Set { at, setting, value })?;
-        Ok(Changed::Nothing)
-    }
-
     /// Goes to a step that has been run, and waits there.
-    fn seek(&mut self, step: u64) {
+    pub(super) fn seek(&mut self, step: u64) {
         self.paused = true;
         self.owed = 0.0;
         let step = step.min(self.end);
@@ -385,7 +197,7 @@ impl Session {
     }
 
     /// Forgets what came after this step.
-    fn branch(&mut self) {
+    pub(super) fn branch(&mut self) {
         if !self.is_past() {
             return;
         }
@@ -396,7 +208,7 @@ impl Session {
     }
 
     /// Begins with another scene; keeps pace and pause.
-    pub(super) fn begin(&mut self, scene: Scene) -> Result<()> {
+    pub(super) fn begin(&mut self, scene: LiveScene) -> Result<()> {
         let names = std::mem::take(&mut self.names);
         let begun = Self::with(scene, names.clone(), self.registry.clone());
         match begun {
@@ -423,7 +235,7 @@ impl Session {
     ///
     /// # Errors
     /// As [`Self::with`]; the old one then stays.
-    pub fn replace(&mut self, scene: Scene) -> Result<()> {
+    pub fn replace(&mut self, scene: LiveScene) -> Result<()> {
         self.begin(scene)?;
         self.generation += 1;
         Ok(())

@@ -37,7 +37,10 @@ const CRATES: [(&str, &[&str]); 4] = [
             "anticipation",
         ],
     ),
-    ("src", &["scenarios", "figure", "render", "cli"]),
+    (
+        "src",
+        &["scenarios", "table", "figure", "render", "live", "cli"],
+    ),
 ];
 
 /// Arrows from a file (or folder) to those whose items it uses.

@@ -48,7 +48,7 @@ pub enum ScheduledInput {
         /// s
         at: Number,
         /// What appears, where, and how fast.
-        prop: PropEntry,
+        prop: Box<PropEntry>,
     },
     /// A spring begins to drag a link or a prop, or the one that does moves on.
     Drag {

@@ -4,6 +4,7 @@
 
 mod body;
 mod contact;
+mod drag;
 mod engine;
 mod fastening;
 mod grip;

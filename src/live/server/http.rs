@@ -1,7 +1,7 @@
 //! The little of HTTP that a page and its WebSocket need. Everything that is read is bounded, in
 //! bytes and in time.
 //!
-//! socket → [`Asked`] → response.
+//! socket → [`HttpRequest`] → response.
 
 use std::io::{Read, Write};
 use std::net::{IpAddr, SocketAddr, TcpStream};
@@ -16,7 +16,7 @@ pub(super) const READING: Duration = Duration::from_secs(20);
 
 /// What somebody asked for.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(super) struct Asked {
+pub(super) struct HttpRequest {
     pub(super) method: String,
     /// With what stands behind a `?`.
     pub(super) path: String,
@@ -27,7 +27,7 @@ pub(super) struct Asked {
 }
 
 /// Reads a request's head; none for what is none, too long or too slow.
-pub(super) fn read(stream: &mut TcpStream) -> Option<Asked> {
+pub(super) fn read(stream: &mut TcpStream) -> Option<HttpRequest> {
     let until = Instant::now() + PATIENCE;
     let mut head = Vec::new();
     let mut piece = [0; 1024];
@@ -48,7 +48,7 @@ pub(super) fn read(stream: &mut TcpStream) -> Option<Asked> {
 }
 
 /// A head that is complete; some nothing while it is not; none if it never will be.
-fn parse(head: &[u8]) -> Option<Option<Asked>> {
+fn parse(head: &[u8]) -> Option<Option<HttpRequest>> {
     let mut headers = [httparse::EMPTY_HEADER; 64];
     let mut request = httparse::Request::new(&mut headers);
     if request.parse(head).ok()?.is_partial() {
@@ -64,7 +64,7 @@ fn parse(head: &[u8]) -> Option<Option<Asked>> {
             .map(str::to_owned)
     };
     let upgrades = value("upgrade").is_some_and(|u| u.eq_ignore_ascii_case("websocket"));
-    let asked = Asked {
+    let asked = HttpRequest {
         method: request.method?.to_owned(),
         path: request.path?.to_owned(),
         host: value("host"),
@@ -74,7 +74,7 @@ fn parse(head: &[u8]) -> Option<Option<Asked>> {
     Some(Some(asked))
 }
 
-impl Asked {
+impl HttpRequest {
     /// Whether it comes from the page itself. A page from elsewhere has another `Origin`; a name
     /// that was made to point to this computer has another `Host`. Programs send no `Origin`.
     pub(super) fn is_at_home(&self, address: SocketAddr) -> bool {
@@ -138,7 +138,7 @@ pub(super) fn turn_away(mut stream: TcpStream) {
 mod tests {
     use super::*;
 
-    fn asked(text: &str) -> Option<Option<Asked>> {
+    fn asked(text: &str) -> Option<Option<HttpRequest>> {
         parse(text.as_bytes())
     }
 
@@ -156,10 +156,10 @@ mod tests {
     fn pages_from_elsewhere_and_foreign_names_are_strangers() {
         let address = "127.0.0.1:7227".parse().unwrap();
         let at_home = |host: &str, origin: Option<&str>| {
-            let asked = Asked {
+            let asked = HttpRequest {
                 host: Some(host.to_owned()),
                 origin: origin.map(str::to_owned),
-                ..Asked::default()
+                ..HttpRequest::default()
             };
             asked.is_at_home(address)
         };
@@ -177,6 +177,6 @@ mod tests {
         ] {
             assert!(!at_home(host, origin), "{host} {origin:?}");
         }
-        assert!(!Asked::default().is_at_home(address));
+        assert!(!HttpRequest::default().is_at_home(address));
     }
 }

@@ -98,7 +98,7 @@ impl Server {
             session.advance((now - last).as_secs_f64());
             last = now;
             tell(&session, &mut watchers);
-            for Joined { watcher, outbox } in watchers.values_mut() {
+            for Connected { watcher, outbox } in watchers.values_mut() {
                 watcher.view.dropped = outbox.dropped();
                 outbox.put_frame(session.frame(&watcher.view));
             }
@@ -113,7 +113,7 @@ impl Server {
     }
 }
 
-struct Joined {
+struct Connected {
     watcher: Watcher,
     outbox: Arc<Outbox>,
 }
@@ -123,7 +123,7 @@ fn wait(
     heard: &Receiver<Said>,
     time: Duration,
     session: &mut Session,
-    watchers: &mut BTreeMap<u64, Joined>,
+    watchers: &mut BTreeMap<u64, Connected>,
 ) {
     let until = Instant::now() + time;
     loop {
@@ -136,15 +136,15 @@ fn wait(
     }
 }
 
-fn hear(said: Said, session: &mut Session, watchers: &mut BTreeMap<u64, Joined>) {
+fn hear(said: Said, session: &mut Session, watchers: &mut BTreeMap<u64, Connected>) {
     match said {
         Said::Joined(id, outbox) => {
             let watcher = Watcher::default();
-            watchers.insert(id, Joined { watcher, outbox });
+            watchers.insert(id, Connected { watcher, outbox });
         }
         Said::Left(id) => drop(watchers.remove(&id)),
         Said::Text(id, text) => {
-            if let Some(Joined { watcher, outbox }) = watchers.get_mut(&id)
+            if let Some(Connected { watcher, outbox }) = watchers.get_mut(&id)
                 && let Some(refusal) = watcher.ask(session, &text)
             {
                 outbox.put(refusal);
@@ -155,8 +155,8 @@ fn hear(said: Said, session: &mut Session, watchers: &mut BTreeMap<u64, Joined>)
     }
 }
 
-fn tell(session: &Session, watchers: &mut BTreeMap<u64, Joined>) {
-    for Joined { watcher, outbox } in watchers.values_mut() {
+fn tell(session: &Session, watchers: &mut BTreeMap<u64, Connected>) {
+    for Connected { watcher, outbox } in watchers.values_mut() {
         for news in watcher.news(session, true) {
             outbox.put(news);
         }

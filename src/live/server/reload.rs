@@ -10,7 +10,7 @@ use std::time::{Duration, Instant, SystemTime};
 use aplomb_framework::control::{ControllerFile, Registry, repertoire};
 
 use crate::live::answer::files;
-use crate::live::scene::Scene;
+use crate::live::scene::LiveScene;
 use crate::live::session::Session;
 
 /// How often the files are looked at.
@@ -19,11 +19,11 @@ const OFTEN: Duration = Duration::from_millis(200);
 const MOST_FILES: usize = 500;
 
 /// Reads the scene again, or says what is wrong with its files.
-type Build = Box<dyn Fn() -> Result<Scene, String> + Send>;
+type Rebuild = Box<dyn Fn() -> Result<LiveScene, String> + Send>;
 
 /// Looks after the files that a scene was read from.
 pub struct Reload {
-    build: Build,
+    build: Rebuild,
     registry: Registry,
     folders: Vec<PathBuf>,
     /// Every file with its time and length when it was last looked at.
@@ -45,7 +45,12 @@ impl Reload {
     /// Looks after the files of a scene that `build` reads again. `used` are the files that were
     /// named; names of shipped ones are left out. None if nothing is on disk.
     #[must_use]
-    pub fn new(build: Build, used: &[String], scene: &Scene, registry: &Registry) -> Option<Self> {
+    pub fn new(
+        build: Rebuild,
+        used: &[String],
+        scene: &LiveScene,
+        registry: &Registry,
+    ) -> Option<Self> {
         let on_disk = used.iter().map(Path::new).filter(|p| p.is_file());
         let folder = |p: &Path| match p.parent() {
             Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
@@ -117,7 +122,7 @@ impl Reload {
         let new = (self.build)()?;
         let now = said(&new, &self.registry);
         let old = &session.scene;
-        let models = |scene: &Scene| -> Vec<String> {
+        let models = |scene: &LiveScene| -> Vec<String> {
             scene
                 .cast
                 .iter()
@@ -145,7 +150,7 @@ impl Reload {
 }
 
 /// What each controller says, by name. Characters of one scene share their skills.
-fn said(scene: &Scene, registry: &Registry) -> BTreeMap<String, String> {
+fn said(scene: &LiveScene, registry: &Registry) -> BTreeMap<String, String> {
     let roles = scene.scenario.characters.iter().zip(&scene.cast);
     let pools = roles
         .filter_map(|(role, (model, _))| repertoire::read(role.repertoire(model), registry).ok());
