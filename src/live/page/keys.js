@@ -33,10 +33,10 @@ export function makeKeys(state, act) {
       });
   }
 
-  /** The torso, or else the first link above the root. */
+  /** The link whose angle is the trunk's pitch. */
   function trunk() {
-    const names = state.body()?.links.map((one) => one.name) ?? [];
-    return names.find((name) => /torso|trunk|chest/.test(name)) ?? names[1] ?? names[0];
+    const body = state.body();
+    return body?.links[body.trunk]?.name;
   }
 
   const table = [
