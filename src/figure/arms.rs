@@ -5,7 +5,7 @@
 use aplomb_framework::character::Model;
 use aplomb_framework::math::hypot;
 
-use super::anatomy::{Dress, SEAM, anchor, child, joint};
+use super::anatomy::{BEND, Dress, SEAM, anchor, child, joint};
 use super::curve::{Taper, smooth};
 use super::plain::thickness;
 use super::{Patch, Tone};
@@ -42,7 +42,7 @@ pub(super) fn upper_arm(model: &Model, link: usize, dress: Dress) -> Option<Vec<
 }
 
 /// Forearm and hand.
-pub(super) fn forearm(model: &Model, link: usize) -> Option<Vec<Patch>> {
+pub(super) fn forearm(model: &Model, link: usize, dress: Dress) -> Option<Vec<Patch>> {
     let hand = model.hands.iter().find(|h| h.link == link)?;
     let elbow = joint(model, link);
     let r = thickness(&model.links[link].shape);
@@ -73,30 +73,34 @@ pub(super) fn forearm(model: &Model, link: usize) -> Option<Vec<Patch>> {
     let arm = Patch::seamed(
         Tone::Skin,
         arm.outline(),
-        &[([0.0; 2], SEAM * elbow), wrist_seam],
+        &[([0.0; 2], BEND * elbow), wrist_seam],
     );
     let palm = smooth(&[
         at(-0.75, -0.5),
-        at(-1.05, 0.5),
-        at(-1.05, 1.6),
-        at(-0.8, 2.6),
+        at(-0.95, 0.5),
+        at(-0.95, 1.7),
+        at(-0.85, 2.7),
         at(-0.3, 3.2),
-        at(0.55, 3.2),
-        at(0.95, 2.4),
-        at(1.05, 1.2),
+        at(0.5, 3.2),
+        at(0.9, 2.5),
+        at(0.95, 1.2),
         at(0.75, -0.5),
     ]);
     let thumb = smooth(&[
         at(0.1, 0.2),
         at(0.9, 0.3),
-        at(1.5, 1.2),
-        at(1.55, 2.3),
-        at(1.0, 2.3),
+        at(1.3, 1.2),
+        at(1.3, 2.3),
+        at(0.85, 2.3),
         at(0.6, 1.4),
     ]);
-    Some(vec![
-        arm,
-        Patch::seamed(Tone::Skin, palm, &[wrist_seam]),
-        Patch::seamed(Tone::Skin, thumb, &[(at(0.2, 0.3), 1.0 * r)]),
-    ])
+    let fingers = vec![at(-0.5, 2.0), at(0.1, 1.75), at(0.6, 1.9)];
+    let palm = Patch::seamed(Tone::Skin, palm, &[wrist_seam]);
+    let mut pieces = vec![arm, palm.with(fingers)];
+    // A wrestler's hand is a fist, its thumb on the other side.
+    if dress == Dress::Clothes {
+        let root = (at(0.2, 0.3), 1.0 * r);
+        pieces.push(Patch::seamed(Tone::Skin, thumb, &[root]));
+    }
+    Some(pieces)
 }
