@@ -42,7 +42,7 @@ pub(super) fn upper_arm(model: &Model, link: usize, dress: Dress) -> Option<Vec<
 }
 
 /// Forearm and hand.
-pub(super) fn forearm(model: &Model, link: usize, dress: Dress) -> Option<Vec<Patch>> {
+pub(super) fn forearm(model: &Model, link: usize) -> Option<Vec<Patch>> {
     let hand = model.hands.iter().find(|h| h.link == link)?;
     let elbow = joint(model, link);
     let r = thickness(&model.links[link].shape);
@@ -76,31 +76,27 @@ pub(super) fn forearm(model: &Model, link: usize, dress: Dress) -> Option<Vec<Pa
         &[([0.0; 2], BEND * elbow), wrist_seam],
     );
     let palm = smooth(&[
-        at(-0.75, -0.5),
+        at(-0.7, -0.5),
         at(-0.95, 0.5),
-        at(-0.95, 1.7),
-        at(-0.85, 2.7),
-        at(-0.3, 3.2),
-        at(0.5, 3.2),
-        at(0.9, 2.5),
+        at(-1.0, 1.6),
+        at(-0.75, 2.8),
+        at(-0.2, 3.25),
+        at(0.55, 3.2),
+        at(0.95, 2.6),
         at(0.95, 1.2),
-        at(0.75, -0.5),
+        at(0.7, -0.5),
     ]);
     let thumb = smooth(&[
-        at(0.1, 0.2),
-        at(0.9, 0.3),
-        at(1.3, 1.2),
-        at(1.3, 2.3),
-        at(0.85, 2.3),
-        at(0.6, 1.4),
+        at(0.1, 0.1),
+        at(0.9, 0.2),
+        at(1.4, 1.1),
+        at(1.45, 2.1),
+        at(1.05, 2.15),
+        at(0.5, 1.2),
     ]);
-    let fingers = vec![at(-0.5, 2.0), at(0.1, 1.75), at(0.6, 1.9)];
     let palm = Patch::seamed(Tone::Skin, palm, &[wrist_seam]);
-    let mut pieces = vec![arm, palm.with(fingers)];
-    // A wrestler's hand is a fist, its thumb on the other side.
-    if dress == Dress::Clothes {
-        let root = (at(0.2, 0.3), 1.0 * r);
-        pieces.push(Patch::seamed(Tone::Skin, thumb, &[root]));
-    }
-    Some(pieces)
+    let between = [-0.42, 0.0, 0.42].map(|x| vec![at(x, 3.0), at(x, 1.9)]);
+    let fingers = between.into_iter().fold(palm, Patch::with);
+    let thumb = Patch::seamed(Tone::Skin, thumb, &[(at(0.2, 0.3), 1.0 * r)]);
+    Some(vec![arm, fingers, thumb])
 }

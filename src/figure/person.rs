@@ -21,7 +21,7 @@ pub(super) fn pieces(model: &Model, link: usize) -> Vec<Patch> {
         ("torso", true) => trunk::torso(model, link, dress),
         ("head", true) => Some(head::pieces(model, link, dress)),
         ("upper_arm", true) => arms::upper_arm(model, link, dress),
-        ("forearm", true) => arms::forearm(model, link, dress),
+        ("forearm", true) => arms::forearm(model, link),
         ("thigh", true) => legs::thigh(model, link, dress),
         ("shank", true) => legs::shank(model, link, dress),
         ("foot", false) => Some(legs::foot(model, link, dress)),

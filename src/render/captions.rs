@@ -108,6 +108,30 @@ pub(super) fn captions(lines: &[(String, &str)], at: [f64; 2], size: f64, width:
     group
 }
 
+/// Captions one behind the other, as far as there is room; the last ones first.
+pub(super) fn captions_in_line(
+    lines: &[(String, &str)],
+    at: [f64; 2],
+    size: f64,
+    width: f64,
+) -> Group {
+    let wide = |text: &str| 1.08 * text_width(text, size) + 1.2 * size;
+    let mut room = width;
+    let fitting = lines.iter().rev().take_while(|(caption, _)| {
+        room -= wide(caption);
+        room >= 0.0
+    });
+    let first = lines.len() - fitting.count();
+    let mut x = at[0];
+    let mut group = Group::new();
+    for (caption, colour) in &lines[first..] {
+        let label = text([x, at[1]], size, colour, "start", caption);
+        group = group.add(label.set("font-weight", "bold"));
+        x += wide(caption);
+    }
+    group
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -117,6 +141,16 @@ mod tests {
     fn a_title_names_what_is_done() {
         let t = recording(1000, |_, _| {});
         assert_eq!(title(&t), "a & b <c>, push −60 N·s at 0.5 s");
+    }
+
+    #[test]
+    fn a_line_keeps_the_last_captions_that_fit() {
+        let lines = ["first", "second", "third"].map(|l| (l.to_owned(), INK));
+        let shown = |width| captions_in_line(&lines, [0.0; 2], 10.0, width).to_string();
+        assert!(shown(1000.0).contains("first"));
+        let few = shown(100.0);
+        assert!(few.contains("third") && !few.contains("first"), "{few}");
+        assert!(!shown(5.0).contains("third"));
     }
 
     #[test]

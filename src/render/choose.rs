@@ -57,8 +57,10 @@ pub(super) fn shots(trajectory: &Trajectory, count: usize) -> Vec<Shot> {
                 if fixed.iter().any(|f| soon.contains(f) && active(f)) {
                     continue;
                 }
-                [0, 1, apart + 1, 2 * apart + 2]
-                    .map(|late| (wish.step + late).min(last))
+                // Later, too, while it is still active, but not right behind another frame.
+                let free = |at: &usize| fixed.iter().all(|f| f.abs_diff(*at) > 3 * apart);
+                [0, 1, 2, 4, 6]
+                    .map(|late| (wish.step + late * apart).min(last))
                     .into_iter()
                     .find(|at| free(at) && active(at))
             }

@@ -248,7 +248,6 @@ fn smoothed(numbers: &[f64], reach: usize) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use aplomb_framework::character::Shape;
     use aplomb_framework::world::Prop;
 
     use super::*;
@@ -256,20 +255,12 @@ mod tests {
 
     /// Where a box's edges are in a picture 600 px wide, at each step that is asked for, px.
     fn seen(at: impl Fn(usize) -> f64, steps: [usize; 2]) -> [[f64; 2]; 2] {
-        let prop = Prop {
-            name: "box".into(),
-            shape: Shape::Box {
-                half: [0.2, 0.2],
-                centre: [0.0, 0.0],
-            },
-            mass: 30.0,
-            position: [0.0, 0.0],
-            angle: 0.0,
-            velocity: [0.0, 0.0],
-            friction: 0.5,
-            restitution: 0.0,
-            grip: 0.0,
-        };
+        let shape = "Box(half: (0.2, 0.2), centre: (0, 0))";
+        let prop: Prop = ron::from_str(&format!(
+            "(name: \"box\", shape: {shape}, mass: 30, position: (0, 0), angle: 0, velocity: (0, 0),
+              friction: 0.5, restitution: 0, grip: 0)"
+        ))
+        .unwrap();
         let t = staged(1000, vec![prop], |step, row| {
             row.extend([at(step) as f32, 0.2, 0.0]);
         });

@@ -8,7 +8,7 @@ use svg::node::element::{Group, SVG};
 use super::GRAVITY;
 use super::body::{Looks, pose, shadow};
 use super::camera::Camera;
-use super::captions::{captions, event_colour, title_line};
+use super::captions::{captions_in_line, event_colour, title_line};
 use super::ground::{ground, measure};
 use super::marks;
 use super::style::{
@@ -138,7 +138,9 @@ impl<'a> Scene<'a> {
             }
             if age <= READING {
                 let label = event.kind.label();
-                lines.extend(label.map(|l| (l, event_colour(&event.kind))));
+                let line = label.map(|l| (l, event_colour(&event.kind)));
+                // Both hands may take the same.
+                lines.extend(line.filter(|l| !lines.contains(l)));
             }
         }
         let lines = &lines[lines.len().saturating_sub(LINES)..];
@@ -147,6 +149,11 @@ impl<'a> Scene<'a> {
         let (left, below) = (0.8 * size, head(view));
         let clock = format!("{time:.2} s");
         let beside = 1.1 * text_width(&clock, 1.1 * size) + 2.0 * size;
+        // Names with their dots.
+        let all = 0..self.trajectory.models.len();
+        let names = all.filter_map(|who| self.controller(step, who));
+        let tag = names.map(|(name, _)| text_width(name, size) + 2.8 * size);
+        let tag = tag.fold(0.0, f64::max);
         Group::new()
             .add(self.definitions())
             .add(self.still(step, camera, &pushes))
@@ -160,11 +167,11 @@ impl<'a> Scene<'a> {
                 text([left, below + size], 1.1 * size, INK, "start", &clock)
                     .set("font-weight", "bold"),
             )
-            .add(captions(
+            .add(captions_in_line(
                 lines,
-                [left, below + 2.4 * size],
+                [beside, below + size],
                 0.95 * size,
-                0.4 * camera.width,
+                camera.width - beside - tag,
             ))
             .add(self.tags(
                 step,
