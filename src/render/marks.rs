@@ -137,15 +137,25 @@ pub(super) fn push(
     let tail = [tip[0] - ux * length, tip[1] - uy * length];
     let label = format!("{amount:.0} N·s");
     let font = (9.5 * size).max(9.5);
-    // Beyond the tail if the picture has room there, else above the shaft.
+    // Beyond the tail if the picture has room there, else above the shaft, short of what is pushed.
     let room = text_width(&label, font) + 6.0;
     let (x, y, anchor) = if ux > 0.5 && tail[0] > room {
         (tail[0] - 4.0, tail[1] + 0.36 * font, "end")
     } else if ux < -0.5 && tail[0] < camera.width - room {
         (tail[0] + 4.0, tail[1] + 0.36 * font, "start")
     } else {
-        let x = tail[0].clamp(room / 2.0, camera.width - room / 2.0);
-        (x, tail[1].min(tip[1]) - 0.6 * font, "middle")
+        let above = tail[1].min(tip[1]) - 0.9 * font;
+        // As far from the body as the picture allows.
+        if ux > 0.5 {
+            let left = tail[0].min(tip[0] - 16.0 - room);
+            (left.max(3.0), above, "start")
+        } else if ux < -0.5 {
+            let right = tail[0].max(tip[0] + 16.0 + room);
+            (right.min(camera.width - 3.0), above, "end")
+        } else {
+            let x = tail[0].clamp(room / 2.0, camera.width - room / 2.0);
+            (x, above, "middle")
+        }
     };
     Group::new()
         .set("opacity", px(opacity))
