@@ -13,8 +13,9 @@ pub(super) enum Dress {
     Belt,
 }
 
-/// A line at a joint begins so many radii away from it.
+/// Lines begin so many radii away from a joint: where a limb leaves the trunk, and where it bends.
 pub(super) const SEAM: f64 = 1.25;
+pub(super) const BEND: f64 = 1.03;
 
 /// A link's name without its side.
 pub(super) fn stem(model: &Model, link: usize) -> &str {

@@ -5,7 +5,7 @@
 use aplomb_framework::character::Model;
 use aplomb_framework::math::hypot;
 
-use super::anatomy::{Dress, SEAM, anchor, child, joint};
+use super::anatomy::{BEND, Dress, SEAM, anchor, child, joint};
 use super::curve::{Taper, smooth};
 use super::plain::thickness;
 use super::{Patch, Tone};
@@ -73,30 +73,30 @@ pub(super) fn forearm(model: &Model, link: usize) -> Option<Vec<Patch>> {
     let arm = Patch::seamed(
         Tone::Skin,
         arm.outline(),
-        &[([0.0; 2], SEAM * elbow), wrist_seam],
+        &[([0.0; 2], BEND * elbow), wrist_seam],
     );
     let palm = smooth(&[
-        at(-0.75, -0.5),
-        at(-1.05, 0.5),
-        at(-1.05, 1.6),
-        at(-0.8, 2.6),
-        at(-0.3, 3.2),
+        at(-0.7, -0.5),
+        at(-0.95, 0.5),
+        at(-1.0, 1.6),
+        at(-0.75, 2.8),
+        at(-0.2, 3.25),
         at(0.55, 3.2),
-        at(0.95, 2.4),
-        at(1.05, 1.2),
-        at(0.75, -0.5),
+        at(0.95, 2.6),
+        at(0.95, 1.2),
+        at(0.7, -0.5),
     ]);
     let thumb = smooth(&[
-        at(0.1, 0.2),
-        at(0.9, 0.3),
-        at(1.5, 1.2),
-        at(1.55, 2.3),
-        at(1.0, 2.3),
-        at(0.6, 1.4),
+        at(0.1, 0.1),
+        at(0.9, 0.2),
+        at(1.4, 1.1),
+        at(1.45, 2.1),
+        at(1.05, 2.15),
+        at(0.5, 1.2),
     ]);
-    Some(vec![
-        arm,
-        Patch::seamed(Tone::Skin, palm, &[wrist_seam]),
-        Patch::seamed(Tone::Skin, thumb, &[(at(0.2, 0.3), 1.0 * r)]),
-    ])
+    let palm = Patch::seamed(Tone::Skin, palm, &[wrist_seam]);
+    let between = [-0.42, 0.0, 0.42].map(|x| vec![at(x, 3.0), at(x, 1.9)]);
+    let fingers = between.into_iter().fold(palm, Patch::with);
+    let thumb = Patch::seamed(Tone::Skin, thumb, &[(at(0.2, 0.3), 1.0 * r)]);
+    Some(vec![arm, fingers, thumb])
 }

@@ -4,7 +4,7 @@
 
 use aplomb_framework::character::Model;
 
-use super::anatomy::{Dress, SEAM, anchor, child, joint};
+use super::anatomy::{BEND, Dress, anchor, child, joint};
 use super::curve::{Taper, soft};
 use super::{Patch, Tone};
 
@@ -63,7 +63,7 @@ pub(super) fn shank(model: &Model, link: usize, dress: Dress) -> Option<Vec<Patc
         ],
         round: [1.0; 2],
     };
-    let seams = [([0.0; 2], SEAM * knee), (to, 1.05 * ankle)];
+    let seams = [([0.0; 2], BEND * knee), (to, 1.05 * ankle)];
     if dress == Dress::Belt {
         return Some(vec![Patch::seamed(Tone::Skin, leg.outline(), &seams)]);
     }

@@ -15,12 +15,16 @@ pub(super) fn pelvis(model: &Model, link: usize, dress: Dress) -> Option<Vec<Pat
     let (hip, waist) = (joint(model, thigh), joint(model, torso));
     let (from, to) = (anchor(model, thigh), anchor(model, torso));
     let r = thickness(&model.links[link].shape);
+    let before = match dress {
+        Dress::Clothes => 0.97 * r,
+        Dress::Belt => 1.12 * r,
+    };
     // The axis points up: its front is behind.
     let outline = Taper {
         from,
         to,
         front: &[(0.0, hip), (0.3, 1.13 * r), (0.65, 1.06 * r), (1.0, waist)],
-        back: &[(0.0, hip), (0.5, 0.97 * r), (1.0, waist)],
+        back: &[(0.0, hip), (0.5, before), (1.0, waist)],
         round: [1.0; 2],
     }
     .outline();
@@ -32,26 +36,30 @@ pub(super) fn pelvis(model: &Model, link: usize, dress: Dress) -> Option<Vec<Pat
     // The belt goes around the waist and between the legs; its knot is behind.
     let at = |x: f64, y: f64| [x * r, y * r];
     let band = soft(&[
-        (at(-1.09, 0.32), 0.02),
-        (at(0.0, 0.16), 0.1),
-        (at(1.07, 0.3), 0.02),
-        (at(1.1, 0.95), 0.02),
-        (at(0.0, 0.85), 0.1),
-        (at(-1.1, 0.95), 0.02),
+        (at(-1.13, 0.12), 0.02),
+        (at(0.0, -0.1), 0.15),
+        (at(1.1, 0.02), 0.03),
+        (at(1.2, 0.4), 0.05),
+        (at(1.16, 0.85), 0.02),
+        (at(0.0, 0.72), 0.15),
+        (at(-1.1, 0.9), 0.02),
     ]);
     let front = smooth(&[at(0.55, 0.4), at(0.3, -0.75), at(0.62, -0.75), at(1.0, 0.4)]);
     let knot = smooth(&[
-        at(-1.0, 0.4),
-        at(-1.26, 0.35),
-        at(-1.3, 0.95),
-        at(-1.0, 0.9),
+        at(-1.0, 0.25),
+        at(-1.29, 0.25),
+        at(-1.33, 0.85),
+        at(-1.0, 0.8),
     ]);
-    let fold = vec![at(-1.02, 0.62), at(0.0, 0.5), at(1.02, 0.6)];
+    let fold = |y: f64| vec![at(-1.08, y + 0.08), at(0.0, y - 0.1), at(1.14, y)];
     Some(vec![
         body,
         Patch::edged(Tone::Belt, front),
         Patch::edged(Tone::Belt, knot).over(),
-        Patch::edged(Tone::Belt, band).with(fold).over(),
+        Patch::edged(Tone::Belt, band)
+            .with(fold(0.3))
+            .with(fold(0.6))
+            .over(),
     ])
 }
 
@@ -60,14 +68,18 @@ pub(super) fn torso(model: &Model, link: usize, dress: Dress) -> Option<Vec<Patc
     let waist = joint(model, link);
     let shape = &model.links[link].shape;
     let r = thickness(shape);
-    let top = [neck[0], neck[1] - 0.85 * r];
+    let below = match dress {
+        Dress::Clothes => 0.85 * r,
+        Dress::Belt => 0.66 * r,
+    };
+    let top = [neck[0], neck[1] - below];
     // Where the trunk's middle line lies ahead of the axis.
     let ahead = |t: f64| shape.nearest([top[0], t * top[1]]).0[0] - t * top[0];
     let neck_radius = joint(model, child(model, link, "head")?);
     let seam = [([0.0; 2], 1.15 * waist)];
     let (tone, cap, hem) = match dress {
         Dress::Clothes => (Tone::Shirt, 0.68 * r, 0.55),
-        Dress::Belt => (Tone::Skin, 0.66 * r, 1.0),
+        Dress::Belt => (Tone::Skin, 0.66 * r, 0.7),
     };
     let (behind, before) = match dress {
         Dress::Clothes => (
@@ -75,8 +87,8 @@ pub(super) fn torso(model: &Model, link: usize, dress: Dress) -> Option<Vec<Patc
             [(0.25, 0.88), (0.65, 1.08), (0.82, 0.98)],
         ),
         Dress::Belt => (
-            [(0.2, 0.97), (0.5, 1.0), (0.78, 0.94)],
-            [(0.22, 1.0), (0.45, 1.03), (0.78, 0.94)],
+            [(0.2, 0.97), (0.5, 1.0), (0.75, 0.96)],
+            [(0.14, 1.02), (0.36, 1.08), (0.68, 0.94)],
         ),
     };
     let side = |widths: [(f64, f64); 3], sign: f64| {
@@ -98,7 +110,7 @@ pub(super) fn torso(model: &Model, link: usize, dress: Dress) -> Option<Vec<Patc
     if dress == Dress::Belt {
         // The breast hangs over the belly.
         let at = |x: f64, y: f64| [x * r, y * top[1]];
-        trunk = trunk.with(vec![at(0.62, 0.76), at(0.8, 0.72), at(1.0, 0.74)]);
+        trunk = trunk.with(vec![at(0.5, 0.66), at(0.72, 0.6), at(0.95, 0.62)]);
     }
     Some(vec![collar, trunk])
 }

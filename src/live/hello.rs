@@ -10,6 +10,7 @@ use aplomb_framework::sensing::Feature;
 use aplomb_framework::world::Prop;
 use serde::Serialize;
 
+use crate::figure::{FigurePart, figure};
 use crate::live::clauses::Node;
 use crate::live::session::Session;
 use crate::scenarios;
@@ -64,7 +65,7 @@ struct CharacterHello {
     name: String,
     repertoire: String,
     links: Vec<LinkHello>,
-    figure: Vec<crate::figure::FigurePart>,
+    figure: Vec<FigurePart>,
     feet: Vec<usize>,
     trunk: usize,
     joints: Vec<JointHello>,
@@ -175,7 +176,7 @@ impl Session {
             name: model.name.clone(),
             repertoire: supervisor.contract().name.clone(),
             links: links.collect(),
-            figure: crate::figure::figure(model),
+            figure: figure(model),
             feet: model.feet.iter().map(|f| f.link).collect(),
             trunk: model.trunk,
             joints: joints.collect(),

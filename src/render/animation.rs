@@ -9,11 +9,11 @@ use rayon::prelude::*;
 use resvg::tiny_skia::Pixmap;
 
 use super::drawable;
+use super::framing::Framing;
 use super::palette::{Palette, UNCHANGED};
 use super::raster::pixels;
-use super::scene::Scene;
+use super::scene::{Scene, head};
 use super::style::document;
-use super::track::{Room, Track};
 
 /// Frames that are drawn at a time.
 const BATCH: usize = 32;
@@ -39,9 +39,9 @@ impl Default for AnimationOptions {
     /// For GIF.
     fn default() -> Self {
         Self {
-            fps: 25.0,
-            width: 480,
-            height: 300,
+            fps: 20.0,
+            width: 640,
+            height: 400,
             character: 0,
         }
     }
@@ -64,8 +64,7 @@ impl AnimationOptions {
 pub(super) struct Film<'a> {
     trajectory: &'a Trajectory,
     scene: Scene<'a>,
-    track: Track,
-    room: Room,
+    framing: Framing,
     size: [f64; 2],
     fps: f64,
 }
@@ -85,15 +84,11 @@ impl<'a> Film<'a> {
                 "an animation of {width} × {height} px cannot be drawn; accepted: even numbers from 64 to 4096"
             );
         }
-        let track = Track::new(trajectory, options.character);
-        let every = (trajectory.len() / 500).max(1);
-        let steps: Vec<usize> = (0..trajectory.len()).step_by(every).collect();
         Ok(Self {
-            room: Room::of(trajectory, options.character, &track, &steps),
+            framing: Framing::of(trajectory, options.character),
             scene: Scene::new(trajectory),
             size: [width, height].map(f64::from),
             trajectory,
-            track,
             fps,
         })
     }
@@ -105,7 +100,7 @@ impl<'a> Film<'a> {
 
     pub(super) fn frame(&self, number: usize) -> Result<Pixmap> {
         let step = self.trajectory.step_at(number as f64 / self.fps);
-        let camera = self.room.camera(self.track.at(step), self.size);
+        let camera = self.framing.camera(step, self.size, head(self.size));
         pixels(&document(self.size, self.scene.moving(step, &camera)), 1.0)
     }
 

@@ -34,6 +34,11 @@ impl Camera {
 
     /// How large marks and texts are beside those of a film strip.
     pub(super) fn mark_size(&self) -> f64 {
-        (self.scale / 85.0).clamp(0.75, 2.5)
+        mark_size(self.scale)
     }
+}
+
+/// How large marks are at a scale in px per m.
+pub(super) fn mark_size(scale: f64) -> f64 {
+    (scale / 85.0).clamp(0.75, 2.5)
 }

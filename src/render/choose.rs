@@ -1,116 +1,41 @@
-//! Which steps a film strip shows: first and last, what happened, and the rest where the picture
-//! changes most.
+//! Which steps a film strip shows: the first, what happened, what was commanded, and the rest where
+//! the picture changes most. No two neighbours look alike.
 
-use aplomb_framework::events::{Event, EventKind};
+use aplomb_framework::events::EventKind;
 use aplomb_framework::run::Trajectory;
 
-use super::body::pose;
+use super::change::{Change, difference};
 use super::scene::PUSH_TIME;
+use super::wishes::{rank, wishes};
 
-/// Between samples of the motion, s; longer in long recordings.
-const SAMPLING: f64 = 0.005;
-/// Fewest and most samples, as far as there are steps.
-const SAMPLES: [usize; 2] = [200, 20_000];
-/// Change of the picture that is counted when nothing moves, m/s.
-const REST: f64 = 0.08;
-/// Faster changes count as this fast, m/s.
-const FASTEST: f64 = 2.5;
-/// How much of a change of place counts, as the camera goes along.
-const TRAVEL: f64 = 0.25;
 /// Change between neighbouring frames that is aimed at, m.
-const CHANGE: f64 = 0.22;
+const CHANGE: f64 = 0.14;
 /// Chosen frames are at least so far apart, s.
 const APART: f64 = 0.03;
+/// Neighbours that differ by less, m, look alike.
+const ALIKE: f64 = 0.05;
+
+/// Ranks up to this one are always heard, as far as there are frames.
+const ALWAYS: u8 = 1;
 
 /// A chosen frame.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Shot {
     pub(super) step: usize,
-    /// Places of the events that this frame is the nearest to.
+    /// Places of the events that it is the first to show.
     pub(super) events: Vec<usize>,
-}
-
-/// How far the picture has changed up to each sample, m.
-struct Change {
-    stride: usize,
-    sums: Vec<f64>,
-}
-
-impl Change {
-    fn new(trajectory: &Trajectory) -> Self {
-        let dt = trajectory.header.dt;
-        let stride = ((SAMPLING / dt).round().max(1.0) as usize).max(trajectory.len() / SAMPLES[1]);
-        let stride = stride.min((trajectory.len() / SAMPLES[0]).max(1));
-        let span = stride as f64 * dt;
-        let mut sums = vec![0.0];
-        let mut sum = 0.0;
-        let mut last: Option<Vec<[f64; 2]>> = None;
-        for step in (0..trajectory.len()).step_by(stride) {
-            let now = points(trajectory, step);
-            if let Some(last) = last.replace(now.clone()) {
-                let squares = now
-                    .iter()
-                    .zip(&last)
-                    .map(|(a, b)| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2));
-                let speed = (squares.sum::<f64>() / now.len().max(1) as f64).sqrt() / span;
-                let speed = if speed.is_finite() {
-                    speed.min(FASTEST)
-                } else {
-                    0.0
-                };
-                sum += (speed + REST) * span;
-                sums.push(sum);
-            }
-        }
-        Self { stride, sums }
-    }
-
-    fn at(&self, step: usize) -> f64 {
-        self.sums[(step / self.stride).min(self.sums.len() - 1)]
-    }
-
-    /// The step by which the picture has changed so far.
-    fn step(&self, change: f64) -> usize {
-        self.sums.partition_point(|s| *s < change) * self.stride
-    }
-}
-
-/// The links as a camera sees them that goes along with most of their motion.
-fn points(trajectory: &Trajectory, step: usize) -> Vec<[f64; 2]> {
-    let mut points = Vec::new();
-    for (who, model) in trajectory.models.iter().enumerate() {
-        let poses = pose(model, trajectory.moment(step, who).q);
-        let along = (1.0 - TRAVEL) * poses.com[0];
-        points.extend(poses.links.iter().map(|l| [l.com[0] - along, l.com[1]]));
-    }
-    points
-}
-
-/// The step that shows an event, and its rank; none for what needs no frame of its own.
-fn wanted(trajectory: &Trajectory, event: &Event) -> Option<(u8, usize)> {
-    let rank = match &event.kind {
-        EventKind::Push { .. } => 0,
-        EventKind::Fell | EventKind::Stood => 1,
-        EventKind::Switch { .. } => 3,
-        EventKind::Refused { .. } => return None,
-        _ => 2,
-    };
-    let after = event.time > trajectory.duration() + trajectory.header.dt;
-    if after || event.character >= trajectory.models.len() {
-        return None;
-    }
-    let late = if rank == 0 { 0.5 * PUSH_TIME } else { 0.0 };
-    Some((rank, trajectory.step_at(event.time + late)))
 }
 
 /// How many frames suit the recording.
 pub(super) fn suitable(trajectory: &Trajectory) -> usize {
     let change = Change::new(trajectory);
-    let total = change.sums.last().copied().unwrap_or(0.0);
-    (total / CHANGE).ceil().clamp(1.0, 1e6) as usize
+    let wanted = wishes(trajectory, &change);
+    let wanted = 2 + wanted.iter().filter(|w| w.rank < 3).count();
+    let moving = (change.total() / CHANGE).ceil().clamp(1.0, 1e6) as usize;
+    moving.max(wanted)
 }
 
-/// At most `count` different frames in the order of time.
+/// At most `count` frames in the order of time, none like the one before.
 pub(super) fn shots(trajectory: &Trajectory, count: usize) -> Vec<Shot> {
     let Some(last) = trajectory.len().checked_sub(1) else {
         return Vec::new();
@@ -121,43 +46,84 @@ pub(super) fn shots(trajectory: &Trajectory, count: usize) -> Vec<Shot> {
     if count > 1 && last > 0 {
         fixed.push(last);
     }
-    let events = trajectory.events.iter().enumerate();
-    let mut events: Vec<_> = events
-        .filter_map(|(i, e)| wanted(trajectory, e).map(|(rank, step)| (rank, step, i)))
-        .collect();
-    events.sort_unstable();
-    // A third remains for the motion between the events.
+    // A third remains for the motion between what is wanted.
     let most = count.min(2 + 2 * count.saturating_sub(2) / 3);
-    for &(_, step, event) in &events {
+    for wish in wishes(trajectory, &change) {
         let free = |at: &usize| fixed.iter().all(|f| f.abs_diff(*at) > apart);
-        let place = match &trajectory.events[event] {
-            // A new controller may be shown later, while it is still active.
-            Event {
-                kind: EventKind::Switch { to, .. },
-                character,
-                ..
-            } => [0, 1, apart + 1, 2 * apart + 2]
-                .map(|late| (step + late).min(last))
-                .into_iter()
-                .find(|at| free(at) && trajectory.controller(*at, *character) == to),
-            _ => Some(step).filter(free),
+        let place = match wish.active {
+            Some((who, controller)) => {
+                let active = |at: &usize| trajectory.moment(*at, who).active == controller;
+                let soon = wish.step..wish.step + 4 * apart + 4;
+                if fixed.iter().any(|f| soon.contains(f) && active(f)) {
+                    continue;
+                }
+                // Later, too, while it is still active, but not right behind another frame.
+                let free = |at: &usize| fixed.iter().all(|f| f.abs_diff(*at) > 3 * apart);
+                [0, 1, 2, 4, 6]
+                    .map(|late| (wish.step + late * apart).min(last))
+                    .into_iter()
+                    .find(|at| free(at) && active(at))
+            }
+            None => Some(wish.step).filter(free),
         };
-        if let Some(place) = place.filter(|_| fixed.len() < most) {
+        let room = if wish.rank <= ALWAYS { count } else { most };
+        if let Some(place) = place.filter(|_| fixed.len() < room) {
             fixed.push(place);
         }
     }
     fixed.sort_unstable();
-    let mut shots: Vec<Shot> = between(&change, &fixed, count)
+    let steps = between(&change, &fixed, count);
+    told(trajectory, without_twins(trajectory, steps))
+}
+
+/// Whether a step lies in a push: its arrow makes a picture of its own.
+fn pushed(trajectory: &Trajectory, step: usize) -> bool {
+    let time = step as f64 * trajectory.header.dt;
+    trajectory.events.iter().any(|e| {
+        let age = time - e.time;
+        matches!(e.kind, EventKind::Push { .. }) && (0.0..=PUSH_TIME).contains(&age)
+    })
+}
+
+/// The steps but for those that look like the one before.
+fn without_twins(trajectory: &Trajectory, steps: Vec<usize>) -> Vec<usize> {
+    let mut kept: Vec<usize> = Vec::new();
+    for step in steps {
+        let twin = kept.last().is_some_and(|last| {
+            let active = |step| {
+                let all = 0..trajectory.models.len();
+                all.map(|who| trajectory.moment(step, who).active)
+                    .collect::<Vec<_>>()
+            };
+            let arrow = pushed(trajectory, step) && !pushed(trajectory, *last);
+            !arrow && active(*last) == active(step) && difference(trajectory, [*last, step]) < ALIKE
+        });
+        if !twin {
+            kept.push(step);
+        }
+    }
+    kept
+}
+
+/// The frames with what each is the first to show: a cause never stands behind its effect.
+fn told(trajectory: &Trajectory, steps: Vec<usize>) -> Vec<Shot> {
+    let mut shots: Vec<Shot> = steps
         .into_iter()
         .map(|step| Shot {
             step,
             events: Vec::new(),
         })
         .collect();
-    for (rank, step, event) in events {
-        let nearest = shots.iter_mut().min_by_key(|s| s.step.abs_diff(step));
-        if let Some(shot) = nearest.filter(|_| rank < 3) {
-            shot.events.push(event);
+    for (i, event) in trajectory.events.iter().enumerate() {
+        let switch = matches!(event.kind, EventKind::Switch { .. });
+        if switch || rank(trajectory, event).is_none() {
+            continue;
+        }
+        let step = trajectory.step_at(event.time);
+        let first = shots.iter().position(|s| s.step >= step);
+        let first = first.unwrap_or(shots.len().saturating_sub(1));
+        if let Some(shot) = shots.get_mut(first) {
+            shot.events.push(i);
         }
     }
     shots
@@ -191,4 +157,97 @@ fn between(change: &Change, fixed: &[usize], count: usize) -> Vec<usize> {
     steps.sort_unstable();
     steps.dedup();
     steps
+}
+
+#[cfg(test)]
+mod tests {
+    use aplomb_framework::character::Model;
+    use aplomb_framework::events::{Event, Reason, Role};
+
+    use super::*;
+    use crate::render::tests::recording;
+
+    #[test]
+    fn frames_are_chosen_at_the_start_at_events_and_where_much_moves() {
+        let t = recording(6000, |_, _| {});
+        let shots = shots(&t, 12);
+        assert!((9..=12).contains(&shots.len()), "{shots:?}");
+        assert_eq!(shots[0].step, 0);
+        assert!(shots.iter().any(|s| s.step == 550), "during the push");
+        assert!(shots.iter().any(|s| s.step == 1100), "the fall");
+        let falling = shots.iter().filter(|s| (1000..1500).contains(&s.step));
+        let falling = falling.count();
+        assert!(falling >= 5, "{falling} show the half second of the fall");
+        let events: Vec<usize> = shots.iter().flat_map(|s| s.events.clone()).collect();
+        assert_eq!(
+            events,
+            [0, 1, 2],
+            "each on one frame, unless it is after the end"
+        );
+    }
+
+    #[test]
+    fn few_frames_are_chosen_of_few() {
+        assert_eq!(shots(&recording(3000, |_, _| {}), 1).len(), 1);
+        assert_eq!(shots(&recording(3, |_, _| {}), 12).len(), 1);
+    }
+
+    /// It stands still from 1.5 s on, and before 1 s but for its push.
+    #[test]
+    fn no_frame_looks_like_the_one_before() {
+        let t = recording(6000, |_, _| {});
+        let shots = shots(&t, 12);
+        for pair in shots.windows(2) {
+            let [a, b] = [pair[0].step, pair[1].step];
+            let arrow = pushed(&t, b) && !pushed(&t, a);
+            assert!(arrow || difference(&t, [a, b]) >= ALIKE, "{a} and {b}");
+        }
+        let resting = shots.iter().filter(|s| s.step > 1500).count();
+        assert!(resting <= 1, "{shots:?}");
+    }
+
+    /// The frame with a push's arrow is the first after it began.
+    #[test]
+    fn a_cause_stands_no_later_than_its_effect() {
+        let t = recording(3000, |_, _| {});
+        let shots = shots(&t, 12);
+        let arrow = shots.iter().position(|s| s.events.contains(&0)).unwrap();
+        assert!(shots[arrow].step >= 500 && shots[arrow - 1].step < 500);
+    }
+
+    #[test]
+    fn a_commanded_nod_has_three_frames_with_its_extreme() {
+        let neck = 3 + Model::load("humanoid")
+            .unwrap()
+            .joint_index("neck")
+            .unwrap();
+        let mut t = recording(10_000, |step, row| {
+            let s = (step as f32 - 1000.0) / 1500.0;
+            let nods = (0.0..1.0).contains(&s);
+            let nod = -0.4 * (std::f32::consts::PI * s).sin();
+            row[1] = 0.9;
+            row[2] = 0.0;
+            row[neck] = if nods { nod } else { 0.0 };
+        });
+        let switch = |time, to: &str, reason| Event {
+            time,
+            character: 0,
+            kind: EventKind::Switch {
+                from: None,
+                to: to.into(),
+                role: Role::Other,
+                reason,
+                bids: vec![],
+            },
+        };
+        t.events = vec![
+            switch(1.0, "nod", Reason::Command),
+            switch(2.5, "balance", Reason::Succeeded),
+        ];
+        let shots = shots(&t, suitable(&t));
+        let nods = shots.iter().filter(|s| (1000..2500).contains(&s.step));
+        let nods: Vec<usize> = nods.map(|s| s.step).collect();
+        assert!(nods.len() >= 3, "{shots:?}");
+        assert!(nods.iter().any(|s| (1700..1800).contains(s)), "{nods:?}");
+    }
 }

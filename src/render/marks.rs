@@ -4,7 +4,7 @@
 use aplomb_framework::run::Moment;
 use svg::node::element::{Circle, Group, Path};
 
-use super::camera::Camera;
+use super::camera::{Camera, mark_size};
 use super::style::{FORCE, INK, PUSH, SUPPORT, arrow, line, polygon, px, text, text_width};
 
 /// Length of the arrow for a force as large as the character's weight, m.
@@ -73,6 +73,21 @@ pub(super) fn behind(moment: &Moment<'_>, camera: &Camera) -> Group {
     group
 }
 
+/// The ground reaction force as an arrow from the centre of pressure: its direction and length, in
+/// weights; none if an arrow would be all head.
+fn force_arrow(moment: &Moment<'_>, weight: f64, scale: f64, size: f64) -> Option<[f64; 2]> {
+    let force = moment.force.map(|f| f64::from(f) / weight.max(1e-9));
+    let amount = force[0].hypot(force[1]);
+    let long = amount.is_finite() && amount * WEIGHT_ARROW * scale > 2.0 * size;
+    long.then(|| force.map(|f| f * amount.min(LONGEST) / amount))
+}
+
+/// Whether the ground reaction force is drawn at this scale, in px per m; `weight` in N.
+pub(super) fn shows_force(moment: &Moment<'_>, weight: f64, scale: f64) -> bool {
+    let known = moment.cop.is_some_and(f32::is_finite);
+    known && force_arrow(moment, weight, scale, 4.5 * mark_size(scale)).is_some()
+}
+
 /// Marks before the body: ground reaction force, centre of pressure, centre of mass with its plumb
 /// line.
 /// `weight` in N.
@@ -88,12 +103,9 @@ pub(super) fn before(moment: &Moment<'_>, weight: f64, camera: &Camera) -> Group
     }
     if let Some(cop) = moment.cop.map(f64::from).filter(|x| x.is_finite()) {
         let at = camera.at([cop, 0.0]);
-        let force = moment.force.map(|f| f64::from(f) / weight.max(1e-9));
-        let amount = force[0].hypot(force[1]);
-        // Shorter arrows would be all head.
-        if amount.is_finite() && amount * WEIGHT_ARROW * camera.scale > 2.0 * size {
-            let shown = WEIGHT_ARROW * amount.min(LONGEST) / amount * camera.scale;
-            let tip = [at[0] + force[0] * shown, at[1] - force[1] * shown];
+        if let Some(force) = force_arrow(moment, weight, camera.scale, size) {
+            let [x, y] = force.map(|f| f * WEIGHT_ARROW * camera.scale);
+            let tip = [at[0] + x, at[1] - y];
             group = group.add(arrow(at, tip, FORCE, 0.55 * size));
         }
         group = group.add(cop_sign(at, size));
@@ -125,15 +137,25 @@ pub(super) fn push(
     let tail = [tip[0] - ux * length, tip[1] - uy * length];
     let label = format!("{amount:.0} N·s");
     let font = (9.5 * size).max(9.5);
-    // Beyond the tail if the picture has room there, else above the shaft.
+    // Beyond the tail if the picture has room there, else above the shaft, short of what is pushed.
     let room = text_width(&label, font) + 6.0;
     let (x, y, anchor) = if ux > 0.5 && tail[0] > room {
         (tail[0] - 4.0, tail[1] + 0.36 * font, "end")
     } else if ux < -0.5 && tail[0] < camera.width - room {
         (tail[0] + 4.0, tail[1] + 0.36 * font, "start")
     } else {
-        let x = tail[0].clamp(room / 2.0, camera.width - room / 2.0);
-        (x, tail[1].min(tip[1]) - 0.6 * font, "middle")
+        let above = tail[1].min(tip[1]) - 0.9 * font;
+        // As far from the body as the picture allows.
+        if ux > 0.5 {
+            let left = tail[0].min(tip[0] - 16.0 - room);
+            (left.max(3.0), above, "start")
+        } else if ux < -0.5 {
+            let right = tail[0].max(tip[0] + 16.0 + room);
+            (right.min(camera.width - 3.0), above, "end")
+        } else {
+            let x = tail[0].clamp(room / 2.0, camera.width - room / 2.0);
+            (x, above, "middle")
+        }
     };
     Group::new()
         .set("opacity", px(opacity))

@@ -10,10 +10,15 @@ mod animation;
 pub mod anticipation;
 mod body;
 mod camera;
+mod captions;
+mod change;
 mod chart;
 mod choose;
 pub mod comparison;
 mod film;
+mod framing;
+mod ground;
+mod key;
 mod legend;
 mod marks;
 mod palette;
@@ -25,8 +30,9 @@ mod seen;
 mod series;
 mod style;
 mod timeline;
-mod track;
 mod video;
+mod wardrobe;
+mod wishes;
 
 use std::path::Path;
 

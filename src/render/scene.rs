@@ -1,4 +1,4 @@
-//! One instant: ground, props, characters, marks, tags.
+//! One instant: ground, props, characters, marks, tags, captions.
 
 use aplomb_framework::character::{Kinematics, Outline};
 use aplomb_framework::events::EventKind;
@@ -6,17 +6,32 @@ use aplomb_framework::run::Trajectory;
 use svg::node::element::{Group, SVG};
 
 use super::GRAVITY;
-use super::body::{SKINS, draw, pose};
+use super::body::{Looks, pose, shadow};
 use super::camera::Camera;
+use super::captions::{captions_in_line, event_colour, title_line};
+use super::ground::{ground, measure};
 use super::marks;
 use super::style::{
-    FAINT_INK, GROUND, INK, controller_colours, line, polygon, px, rectangle, shortened, tag, text,
+    INK, controller_colours, line, polygon, px, rectangle, shortened, tag, text, text_width,
 };
 
 /// s that a push lasts.
 pub(super) const PUSH_TIME: f64 = 0.1;
-/// s in which its arrow fades afterwards, so that it is seen in an animation.
-const FADING: f64 = 0.25;
+/// s for which its arrow stays, and s in which it fades, so that it is seen in an animation.
+const STAYING: [f64; 2] = [0.35, 0.25];
+/// s for which a caption stays in an animation, long enough to be read, and how many at a time.
+const READING: f64 = 1.6;
+const LINES: usize = 3;
+
+/// Size of an animation's text, px.
+fn font(size: [f64; 2]) -> f64 {
+    (0.042 * size[1]).clamp(9.0, 24.0)
+}
+
+/// Height of the title of an animation's frame, px.
+pub(super) fn head(size: [f64; 2]) -> f64 {
+    1.9 * font(size)
+}
 
 /// Draws instants of one recording.
 #[derive(Debug)]
@@ -24,6 +39,8 @@ pub(super) struct Scene<'a> {
     trajectory: &'a Trajectory,
     /// Per character, per controller.
     colours: Vec<Vec<&'static str>>,
+    /// Per character.
+    looks: Vec<Looks>,
 }
 
 impl<'a> Scene<'a> {
@@ -32,7 +49,22 @@ impl<'a> Scene<'a> {
         Self {
             trajectory,
             colours: cast.map(|c| controller_colours(&c.controllers)).collect(),
+            looks: (0..)
+                .zip(&trajectory.models)
+                .map(|(i, m)| Looks::new(m, i))
+                .collect(),
         }
+    }
+
+    /// A character's.
+    pub(super) fn looks(&self, character: usize) -> Option<&Looks> {
+        self.looks.get(character)
+    }
+
+    /// What a picture of [`Self::still`]s has once.
+    pub(super) fn definitions(&self) -> Group {
+        let all = self.looks.iter().map(Looks::definitions);
+        all.fold(Group::new(), Group::add)
     }
 
     /// Name and colour of the controller that is active.
@@ -58,12 +90,16 @@ impl<'a> Scene<'a> {
             .map(|(who, model)| pose(model, t.moment(step, who).q))
             .collect();
         let mut group = Group::new().add(ground(camera));
+        for (model, poses) in t.models.iter().zip(&poses) {
+            group = group.add(shadow(model, poses, camera));
+        }
+        group = group.add(measure(camera));
         for who in 0..t.models.len() {
             group = group.add(marks::behind(&t.moment(step, who), camera));
         }
         group = group.add(self.props(step, camera));
-        for (who, model) in t.models.iter().enumerate().rev() {
-            group = group.add(draw(model, &poses[who], camera, &SKINS[who % SKINS.len()]));
+        for (looks, poses) in self.looks.iter().zip(&poses).rev() {
+            group = group.add(looks.draw(poses, camera));
         }
         for (who, model) in t.models.iter().enumerate() {
             let weight = model.total_mass() * GRAVITY;
@@ -86,39 +122,62 @@ impl<'a> Scene<'a> {
         group
     }
 
-    /// A frame of an animation: with time, tags, and pushes that fade.
+    /// A frame of an animation: with title, time, tags, captions, and pushes that fade.
     pub(super) fn moving(&self, step: usize, camera: &Camera) -> Group {
         let time = step as f64 * self.trajectory.header.dt;
-        let pushes = self
-            .trajectory
-            .events
-            .iter()
-            .enumerate()
-            .filter_map(|(i, event)| {
-                let age = time - event.time;
-                let shown = matches!(event.kind, EventKind::Push { .. }) && age >= 0.0;
-                let opacity = 1.0 - ((age - PUSH_TIME) / FADING).max(0.0);
-                (shown && opacity > 0.0).then_some((i, opacity))
-            });
-        let pushes: Vec<_> = pushes.collect();
-        let size = (0.045 * camera.height).clamp(9.0, 22.0);
+        let mut pushes = Vec::new();
+        let mut lines = Vec::new();
+        for (i, event) in self.trajectory.events.iter().enumerate() {
+            let age = time - event.time;
+            if age < 0.0 {
+                continue;
+            }
+            if matches!(event.kind, EventKind::Push { .. }) {
+                let opacity = 1.0 - ((age - STAYING[0]) / STAYING[1]).max(0.0);
+                pushes.extend((opacity > 0.0).then_some((i, opacity)));
+            }
+            if age <= READING {
+                let label = event.kind.label();
+                let line = label.map(|l| (l, event_colour(&event.kind)));
+                // Both hands may take the same.
+                lines.extend(line.filter(|l| !lines.contains(l)));
+            }
+        }
+        let lines = &lines[lines.len().saturating_sub(LINES)..];
+        let view = [camera.width, camera.height];
+        let size = font(view);
+        let (left, below) = (0.8 * size, head(view));
+        let clock = format!("{time:.2} s");
+        let beside = 1.1 * text_width(&clock, 1.1 * size) + 2.0 * size;
+        // Names with their dots.
+        let all = 0..self.trajectory.models.len();
+        let names = all.filter_map(|who| self.controller(step, who));
+        let tag = names.map(|(name, _)| text_width(name, size) + 2.8 * size);
+        let tag = tag.fold(0.0, f64::max);
         Group::new()
+            .add(self.definitions())
             .add(self.still(step, camera, &pushes))
+            .add(title_line(
+                self.trajectory,
+                [left, 1.35 * size],
+                0.85 * size,
+                camera.width - 2.0 * left,
+            ))
             .add(
-                text(
-                    [0.8 * size, 1.6 * size],
-                    1.1 * size,
-                    INK,
-                    "start",
-                    &format!("{time:.2} s"),
-                )
-                .set("font-weight", "bold"),
+                text([left, below + size], 1.1 * size, INK, "start", &clock)
+                    .set("font-weight", "bold"),
             )
+            .add(captions_in_line(
+                lines,
+                [beside, below + size],
+                0.95 * size,
+                camera.width - beside - tag,
+            ))
             .add(self.tags(
                 step,
-                [camera.width - 0.6 * size, 0.55 * size],
+                [camera.width - 0.6 * size, below - 0.2 * size],
                 size,
-                0.6 * camera.width,
+                camera.width - beside,
             ))
     }
 
@@ -134,11 +193,11 @@ impl<'a> Scene<'a> {
             let (label, wide) = tag(at[0], top, size, colour, &name);
             group = group.add(label);
             if self.trajectory.models.len() > 1 {
-                // Whose tag it is: a dot in the body's colour.
+                // Whose tag it is: a dot in its clothes' colour.
                 let dot = rectangle(
                     [at[0] - wide - 0.9 * size, top + 0.45 * size],
                     [0.6 * size; 2],
-                    SKINS[who % SKINS.len()].near,
+                    &self.looks[who].sign(),
                 );
                 group = group.add(
                     dot.set("rx", px(0.3 * size))
@@ -190,46 +249,6 @@ impl<'a> Scene<'a> {
         }
         group
     }
-}
-
-/// Ground with a tick every 0.25 m and its x in m at whole metres.
-fn ground(camera: &Camera) -> Group {
-    let level = camera.at([0.0, 0.0])[1];
-    let size = camera.mark_size();
-    let mut group = Group::new().add(rectangle(
-        [0.0, level],
-        [camera.width, camera.height - level],
-        GROUND,
-    ));
-    let [left, right] = camera.span();
-    let every = if camera.scale > 40.0 { 0.25 } else { 1.0 };
-    if (right - left) / every < 400.0 && left.abs() < 1e9 {
-        for k in (left / every).ceil() as i64..=(right / every).floor() as i64 {
-            let metres = k as f64 * every;
-            let x = camera.at([metres, 0.0])[0];
-            let whole = (metres - metres.round()).abs() < 1e-9;
-            let long = if whole { 8.0 } else { 4.0 } * size;
-            group = group.add(line(
-                [x, level],
-                [x, level + long],
-                if whole { INK } else { "#9aa5b0" },
-                0.9,
-            ));
-            let label = format!("{metres:.0} m").replace('-', "−");
-            let font = (9.0 * size).max(8.5);
-            let room = super::style::text_width(&label, font) / 2.0 + 1.0;
-            if whole && (room..=camera.width - room).contains(&x) {
-                group = group.add(text(
-                    [x, level + 8.0 * size + 0.9 * font],
-                    font,
-                    FAINT_INK,
-                    "middle",
-                    &label,
-                ));
-            }
-        }
-    }
-    group.add(line([0.0, level], [camera.width, level], INK, 1.2))
 }
 
 /// Cuts a picture off at its edges, at a place in a larger one.

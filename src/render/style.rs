@@ -11,6 +11,7 @@ pub(super) const FAINT_INK: &str = "#66727f";
 pub(super) const GRID: &str = "#e4e8ec";
 pub(super) const FRAME: &str = "#c9d0d7";
 pub(super) const GROUND: &str = "#eceff2";
+pub(super) const SHADOW: &str = "#b9c2cc";
 pub(super) const PUSH: &str = "#c8102e";
 pub(super) const FORCE: &str = "#00845c";
 pub(super) const SUPPORT: &str = "#e69f00";

@@ -1,15 +1,13 @@
 //! What a plot shows above its charts: the active controllers as a band, the events as upright
 //! lines with labels.
 
-use aplomb_framework::events::EventKind;
 use aplomb_framework::run::Trajectory;
 use svg::node::element::Group;
 
+use super::captions::event_colour;
 use super::chart::Chart;
 use super::scene::Scene;
-use super::style::{
-    FAINT_INK, FORCE, INK, PUSH, line, readable_on, rectangle, shortened, text, text_width,
-};
+use super::style::{FAINT_INK, INK, line, readable_on, rectangle, shortened, text, text_width};
 
 /// Height of the controller band, px.
 pub(super) const BAND: f64 = 20.0;
@@ -92,18 +90,6 @@ pub(super) struct Label {
     pub(super) lane: usize,
     /// Its text stands left of the line, at the right end.
     left: bool,
-}
-
-/// The colour in which an event is told.
-pub(super) fn event_colour(kind: &EventKind) -> &'static str {
-    match kind {
-        EventKind::Push { .. }
-        | EventKind::Fell
-        | EventKind::Slipped { .. }
-        | EventKind::Broke { .. } => PUSH,
-        EventKind::Stood | EventKind::Grasped { .. } => FORCE,
-        _ => INK,
-    }
 }
 
 /// Events that are marked, each label in the lowest line where it does not touch another.
