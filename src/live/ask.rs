@@ -37,6 +37,10 @@ impl Session {
 
     fn answer(&mut self, view: &mut View, request: Request) -> Result<Changed> {
         match request {
+            Request::Play if self.is_over() => {
+                let accepted = "an hour at the longest; reset to begin anew";
+                return Err(Error::refused("run", "over", accepted));
+            }
             Request::Play => self.paused = false,
             Request::Pause => self.paused = true,
             Request::Step { steps } => {

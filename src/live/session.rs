@@ -135,6 +135,11 @@ impl Session {
         self.paused
     }
 
+    /// Whether it has lasted as long as any run may.
+    pub(super) fn is_over(&self) -> bool {
+        self.step as f64 * self.dt() >= LONGEST_RUN
+    }
+
     pub(super) fn dt(&self) -> f64 {
         self.now.world().settings().dt
     }
@@ -163,7 +168,7 @@ impl Session {
 
     /// One step; in the past what was done then is done again.
     pub(super) fn forward(&mut self) {
-        if self.step as f64 * self.dt() >= LONGEST_RUN {
+        if self.is_over() {
             self.paused = true;
             return;
         }

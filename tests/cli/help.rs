@@ -14,6 +14,11 @@ fn the_program() {
 }
 
 #[test]
+fn view() {
+    insta::assert_snapshot!(help("view --help"));
+}
+
+#[test]
 fn run() {
     insta::assert_snapshot!(help("run --help"));
 }

@@ -86,6 +86,35 @@ fn what_was_done_is_saved_and_has_the_same_digest() {
 }
 
 #[test]
+fn a_minute_with_twenty_inputs_is_done_again_alike_twice() {
+    let mut session = session(None);
+    for i in 0..20 {
+        let text = match i % 5 {
+            0 => format!(
+                r#"{{"do":"push","link":"torso","impulse":[{},0]}}"#,
+                40 + i * 3
+            ),
+            1 => format!(
+                r#"{{"do":"push","link":"pelvis","impulse":[-{},5]}}"#,
+                60 + i * 5
+            ),
+            2 => r#"{"do":"drag","link":"forearm_r","point":[0,-0.2],"to":[1,1.8]}"#.to_owned(),
+            3 => r#"{"do":"release"}"#.to_owned(),
+            _ => format!(
+                r#"{{"do":"throw","shape":"crate","mass":{i},"size":0.1,"position":[2,2],"velocity":[-4,1]}}"#
+            ),
+        };
+        ask(&mut session, &text).unwrap();
+        pass(&mut session, 3.0);
+    }
+    assert_eq!(session.step(), 60_000);
+    let digest = session.simulation().digest();
+    for _ in 0..2 {
+        assert_eq!(session.replay().recording().unwrap().digest(), digest);
+    }
+}
+
+#[test]
 fn every_step_can_be_gone_back_to_and_time_goes_on_from_there_alike() {
     let mut session = busy();
     let (end, digest) = (session.step(), session.simulation().digest());
