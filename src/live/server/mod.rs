@@ -85,6 +85,7 @@ impl Server {
         };
         let mut watchers = BTreeMap::new();
         let between = Duration::from_secs_f64(1.0 / FRAMES);
+        let mut begun = false;
         let (mut last, mut next) = (Instant::now(), Instant::now() + between);
         while !stop.load(Ordering::Relaxed) {
             for said in heard.try_iter().take(AT_ONCE) {
@@ -95,7 +96,11 @@ impl Server {
             }
             let now = Instant::now();
             tell(&session, &mut watchers);
-            session.advance((now - last).as_secs_f64());
+            // Nothing is missed: it begins when the first watcher is there, and waits for nobody after.
+            begun |= !watchers.is_empty();
+            if begun {
+                session.advance((now - last).as_secs_f64());
+            }
             last = now;
             tell(&session, &mut watchers);
             for Connected { watcher, outbox } in watchers.values_mut() {
