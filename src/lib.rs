@@ -7,6 +7,10 @@
 //! touched) and [`mod@render`] (pictures of recorded runs). SI units and radians
 //! everywhere; frames and signs are those of [`framework`].
 //!
+//! The feature `program`, on by default, is what the command-line program needs: [`training`],
+//! [`mod@render`], the server of [`live`]. A game or a page does without:
+//! `aplomb = { default-features = false }`.
+//!
 //! # The pipeline
 //!
 //! ```
@@ -32,10 +36,12 @@
 
 pub use aplomb_controllers as controllers;
 pub use aplomb_framework as framework;
+#[cfg(feature = "program")]
 pub use aplomb_training as training;
 
 pub mod figure;
 pub mod live;
+#[cfg(feature = "program")]
 #[allow(
     clippy::disallowed_methods,
     reason = "pictures may differ in a last bit; digests do not depend on them"

@@ -14,6 +14,7 @@ mod opened;
 mod request;
 mod save;
 mod scene;
+#[cfg(feature = "program")]
 pub mod server;
 mod session;
 mod watcher;

@@ -1,6 +1,6 @@
 //! What was done in a live run, as files.
 //!
-//! [`Session`] → [`Replay`] → scenario text, recording.
+//! [`Session`] → [`Replay`] → scenario text, recording, table.
 
 use aplomb_framework::input::{Error, Result};
 use aplomb_framework::run::{Simulation, Trajectory, row_width};
@@ -8,6 +8,7 @@ use aplomb_framework::scenario::{Number, Scenario, ScheduledInput};
 
 use crate::live::history::History;
 use crate::live::session::Session;
+use crate::table;
 
 /// The longest recording in memory, bytes.
 const LARGEST_RECORDING: f64 = 1e9;
@@ -38,6 +39,28 @@ impl Session {
 }
 
 impl Replay {
+    /// The files that can be saved without drawing.
+    pub const FILES: [&str; 3] = ["session.ron", "session.trajectory", "session.csv"];
+
+    /// What was done, as the bytes of one of [`Self::FILES`].
+    ///
+    /// # Errors
+    /// Another name; as [`Self::scenario`] and [`Self::recording`].
+    pub fn file(self, name: &str) -> Result<Vec<u8>> {
+        match name {
+            "session.ron" => self.scenario().map(String::into_bytes),
+            "session.trajectory" => self.recording()?.to_bytes(),
+            "session.csv" => {
+                let recording = self.recording()?;
+                let mut bytes = Vec::new();
+                table::write_csv(&recording, recording.header.dt, &mut bytes)
+                    .map_err(|e| Error::refused("recording", e, "a table"))?;
+                Ok(bytes)
+            }
+            _ => Err(Error::unknown("file", name, Self::FILES)),
+        }
+    }
+
     /// A scenario that does the same. Files that changed during the run are not in it.
     ///
     /// # Errors

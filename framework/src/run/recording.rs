@@ -31,24 +31,35 @@ impl Trajectory {
     /// # Errors
     /// [`Error::Write`].
     pub fn write(&self, path: &Path) -> Result<()> {
-        let fail = |reason: String| Error::Write {
+        let bytes = self.encode().map_err(|reason| Error::Write {
             path: path.to_owned(),
             reason,
-        };
+        })?;
+        write_atomically(path, &bytes)
+    }
+
+    /// The recording as the bytes of its file.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] of what the format cannot hold.
+    pub fn to_bytes(&self) -> Result<Vec<u8>> {
+        self.encode()
+            .map_err(|reason| Error::refused("recording", reason, "what its file can hold"))
+    }
+
+    fn encode(&self) -> std::result::Result<Vec<u8>, String> {
         let planes = to_planes(&self.rows, self.width);
         let parts = (&self.header, &self.events, planes);
-        let content = postcard::to_stdvec(&parts).map_err(|e| fail(e.to_string()))?;
+        let content = postcard::to_stdvec(&parts).map_err(|e| e.to_string())?;
         let mut encoder = DeflateEncoder::new(Vec::new(), Compression::default());
-        encoder
-            .write_all(&content)
-            .map_err(|e| fail(e.to_string()))?;
-        let packed = encoder.finish().map_err(|e| fail(e.to_string()))?;
+        encoder.write_all(&content).map_err(|e| e.to_string())?;
+        let packed = encoder.finish().map_err(|e| e.to_string())?;
         let mut bytes = MAGIC.to_vec();
         bytes.extend(VERSION.to_le_bytes());
         bytes.extend((packed.len() as u64).to_le_bytes());
         bytes.extend(xxh3_64(&packed).to_le_bytes());
         bytes.extend(packed);
-        write_atomically(path, &bytes)
+        Ok(bytes)
     }
 
     /// Reads a recording.
@@ -202,6 +213,7 @@ mod tests {
         let path = folder.path().join("x.trajectory");
         recording().write(&path).unwrap();
         let bytes = std::fs::read(&path).unwrap();
+        assert_eq!(recording().to_bytes().unwrap(), bytes);
         for cut in 0..bytes.len() {
             assert!(Trajectory::decode(&bytes[..cut]).is_err(), "cut at {cut}");
         }

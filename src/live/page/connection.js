@@ -78,6 +78,7 @@ function byWorker(address, heard, state) {
       ready = true;
       state(true);
     }
+    worker.postMessage(null); // taken: it may send the next frame
     read(event.data, heard);
   };
   worker.onerror = () => {

@@ -3,7 +3,7 @@
 
 import { byId, make, show } from "./dom.js";
 
-const PATIENCE = 20000; // ms for a worker's answer
+const PATIENCE = 120000; // ms for a worker's answer: it does the whole run again
 
 // id, name of the save (null: made here), label, whether it needs the server
 const ALL = [
@@ -23,7 +23,7 @@ export function makeSave(state, stage, timeline, connection, told) {
   state.on("saved", (message) => {
     const act = waiting.get(message.name);
     waiting.delete(message.name);
-    act?.(message.bytes);
+    act?.(message);
   });
 
   /** The bytes of a save, from wherever the session is. */
@@ -38,9 +38,10 @@ export function makeSave(state, stage, timeline, connection, told) {
     }
     return new Promise((good, bad) => {
       const timer = setTimeout(() => bad(new Error(`${name}: no answer`)), PATIENCE);
-      waiting.set(name, (data) => {
+      waiting.set(name, ({ bytes, error }) => {
         clearTimeout(timer);
-        good(typeof data === "string" ? new TextEncoder().encode(data) : new Uint8Array(data));
+        if (error) bad(new Error(error));
+        else good(typeof bytes === "string" ? new TextEncoder().encode(bytes) : new Uint8Array(bytes));
       });
       state.send({ do: "save", name });
     });

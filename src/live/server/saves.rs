@@ -3,7 +3,6 @@
 //! name, steps → session's [`Replay`] → scenario, recording, table, picture.
 
 use std::net::TcpStream;
-use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::time::Duration;
@@ -92,18 +91,20 @@ fn file(replay: Replay, extension: &str, steps: [Option<usize>; 2]) -> Result<Ve
     encoded(&recording, extension).map_err(|e| e.to_string())
 }
 
-/// By way of a file, as the other subcommands write them.
+/// Pictures by way of a file, as the other subcommands write them.
 fn encoded(recording: &Trajectory, extension: &str) -> anyhow::Result<Vec<u8>> {
-    let folder = tempfile::tempdir()?;
-    let path = folder.path().join("session").with_extension(extension);
     match extension {
-        "trajectory" => recording.write(&path)?,
+        "trajectory" => Ok(recording.to_bytes()?),
         "csv" => {
             let mut bytes = Vec::new();
             table::write_csv(recording, recording.header.dt, &mut bytes)?;
-            return Ok(bytes);
+            Ok(bytes)
         }
-        _ => render::write(recording, &path, false)?,
+        _ => {
+            let folder = tempfile::tempdir()?;
+            let path = folder.path().join("session").with_extension(extension);
+            render::write(recording, &path, false)?;
+            Ok(std::fs::read(path)?)
+        }
     }
-    Ok(std::fs::read(Path::new(&path))?)
 }

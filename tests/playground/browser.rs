@@ -1,0 +1,141 @@
+//! A Chromium of its own for a test: WebDriver's few calls over plain HTTP.
+//!
+//! Debian's packages `chromium` and `chromium-driver`.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// What Chromium needs to run quietly, without a screen and as root.
+const FLAGS: [&str; 10] = [
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--disable-dev-shm-usage",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--window-size=1440,900",
+];
+/// How long something may take to become true.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+pub(crate) struct Browser {
+    chromedriver: Child,
+    port: u16,
+    session: String,
+    _profile: TempDir,
+}
+
+impl Browser {
+    /// Starts one that shows a page.
+    pub(crate) fn open(address: &str) -> Self {
+        let mut chromedriver = Command::new("chromedriver")
+            .args(["--port=0", "--log-level=SEVERE"])
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("chromedriver: Debian's package chromium-driver has it");
+        let mut lines = BufReader::new(chromedriver.stdout.take().unwrap()).lines();
+        let port = lines.by_ref().map_while(Result::ok).find_map(|line| {
+            let port = line.rsplit_once("on port ")?.1;
+            port.trim_end_matches('.').parse().ok()
+        });
+        // It may go on writing.
+        std::thread::spawn(move || lines.for_each(drop));
+        let profile = tempfile::tempdir().unwrap();
+        let mut browser = Self {
+            chromedriver,
+            port: port.expect("chromedriver says its port"),
+            session: String::new(),
+            _profile: profile,
+        };
+        let mut flags: Vec<String> = FLAGS.map(str::to_owned).to_vec();
+        let folder = browser._profile.path().display();
+        flags.push(format!("--user-data-dir={folder}"));
+        let wanted = json!({
+            "goog:chromeOptions": {"args": flags},
+            "goog:loggingPrefs": {"browser": "ALL"},
+        });
+        let body = json!({"capabilities": {"alwaysMatch": wanted}});
+        let begun = browser.http("POST", "/session", &body);
+        browser.session = begun["sessionId"].as_str().unwrap().to_owned();
+        browser.call("timeouts", &json!({"script": 300_000}));
+        browser.call("url", &json!({"url": address}));
+        browser
+    }
+
+    fn http(&self, method: &str, path: &str, body: &Value) -> Value {
+        let answer = self.send(method, path, body).expect("chromedriver answers");
+        let body = answer.split_once("\r\n\r\n").map_or("", |(_, body)| body);
+        let mut answer: Value = serde_json::from_str(body).unwrap();
+        let value = answer["value"].take();
+        assert!(value["error"].is_null(), "{method} {path}: {value}");
+        value
+    }
+
+    fn send(&self, method: &str, path: &str, body: &Value) -> std::io::Result<String> {
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port))?;
+        let body = body.to_string();
+        write!(
+            stream,
+            "{method} {path} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nContent-Type: application/json\r\n\
+             Content-Length: {}\r\nConnection: close\r\n\r\n{body}",
+            self.port,
+            body.len()
+        )?;
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer)?;
+        Ok(answer)
+    }
+
+    fn call(&self, path: &str, body: &Value) -> Value {
+        self.http("POST", &format!("/session/{}/{path}", self.session), body)
+    }
+
+    /// Runs a script and gives what it returns, or what its promise becomes.
+    pub(crate) fn run(&self, script: &str) -> Value {
+        self.call("execute/sync", &json!({"script": script, "args": []}))
+    }
+
+    /// Waits until an expression is neither false nor nothing; gives its value.
+    pub(crate) fn until(&self, expression: &str) -> Value {
+        let begun = Instant::now();
+        loop {
+            let value = self.run(&format!("return {expression}"));
+            if !matches!(value, Value::Null | Value::Bool(false)) {
+                return value;
+            }
+            let told = || self.run("return document.getElementById('told')?.textContent");
+            assert!(
+                begun.elapsed() < PATIENCE,
+                "never: {expression}; told: {}; console: {:?}",
+                told(),
+                self.console()
+            );
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+
+    /// Errors of the page and of its workers since the last call.
+    pub(crate) fn console(&self) -> Vec<String> {
+        let lines = self.call("se/log", &json!({"type": "browser"}));
+        let lines = lines.as_array().unwrap().iter();
+        let errors = lines.filter(|line| line["level"] == "SEVERE");
+        errors.map(|line| line["message"].to_string()).collect()
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        let path = format!("/session/{}", self.session);
+        drop(self.send("DELETE", &path, &json!({})));
+        drop(self.chromedriver.kill());
+        drop(self.chromedriver.wait());
+    }
+}
