@@ -7,7 +7,9 @@ use aplomb_framework::control::{Controller, Supervisor};
 use aplomb_framework::events::Refusal;
 use aplomb_framework::input::Result;
 use aplomb_framework::run::Simulation;
+use aplomb_framework::scenario::{DragTarget, ScheduledInput};
 use aplomb_framework::sensing::{Feature, Sensors};
+use aplomb_framework::world::{Dragged, Pull};
 use serde::Serialize;
 
 use crate::live::clauses;
@@ -121,11 +123,6 @@ impl Session {
     #[must_use]
     pub fn frame(&self, view: &View) -> String {
         let world = self.now.world();
-        let drag = world.pull().map(|pull| DragFrame {
-            at: point(world.place_of(pull.dragged, pull.point)),
-            to: point(pull.to),
-            force: pull.force.map(shorter),
-        });
         let watch = view.features.iter();
         let frame = Frame {
             is: "frame",
@@ -147,11 +144,40 @@ impl Session {
                 .flatten()
                 .map(|x| short(f64::from(x)))
                 .collect(),
-            drag,
+            drag: self.drag(),
             watch: watch.map(|f| short(f.value(self.now.sensors(0)))).collect(),
             inspect: view.inspect.and_then(|(c, k)| self.inspected(c, k)),
         };
         serde_json::to_string(&frame).unwrap_or_default()
+    }
+
+    /// The spring; while time stands still, the one that will pull.
+    fn drag(&self) -> Option<DragFrame> {
+        let world = self.now.world();
+        let pull = match self.history.drag_at(self.step) {
+            Some(ScheduledInput::Drag {
+                what, point, to, ..
+            }) => {
+                let dragged = match what {
+                    DragTarget::Link { name, character } => {
+                        let model = self.now.sensors(*character).model.clone();
+                        let (character, link) = (*character, model.link_index(name).ok()?);
+                        Dragged::Link { character, link }
+                    }
+                    DragTarget::Prop(prop) => Dragged::Prop(*prop),
+                };
+                let mut next = Pull::new(dragged, *point, *to);
+                next.force = world.pull().map_or([0.0; 2], |now| now.force);
+                next
+            }
+            Some(_) => return None,
+            None => *world.pull()?,
+        };
+        Some(DragFrame {
+            at: point(world.place_of(pull.dragged, pull.point)),
+            to: point(pull.to),
+            force: pull.force.map(shorter),
+        })
     }
 
     fn character(&self, place: usize) -> CharacterFrame {

@@ -101,7 +101,8 @@ struct ControllerHello {
     expected: Node,
 }
 
-/// A prop as it is drawn.
+/// A prop as it is drawn: a ball about its origin by its radius alone, others by an outline that the
+/// radius rounds.
 #[derive(Serialize)]
 pub(super) struct PropHello {
     name: String,
@@ -219,7 +220,8 @@ fn controller(contract: &Contract) -> ControllerHello {
 fn props(run: &Simulation, from: usize) -> Vec<PropHello> {
     let shown = |prop: &Prop| {
         let outline = prop.shape.outline();
-        let round = matches!(prop.shape, Shape::Capsule { from, to, .. } if from == to);
+        let round =
+            matches!(prop.shape, Shape::Capsule { from, to, .. } if from == to && to == [0.0; 2]);
         PropHello {
             name: prop.name.clone(),
             outline: (!round).then_some(outline.corners),

@@ -109,6 +109,22 @@ impl History {
         }
     }
 
+    /// The drag or release before this step, if there was one.
+    pub(super) fn drag_at(&self, step: u64) -> Option<&ScheduledInput> {
+        let here = self.deeds.iter().rev().take_while(|(at, _)| *at >= step);
+        let mut inputs = here.filter_map(|(at, deed)| match deed {
+            Deed::Input(input) if *at == step => Some(input),
+            _ => None,
+        });
+        let drags = |input: &&ScheduledInput| {
+            matches!(
+                input,
+                ScheduledInput::Drag { .. } | ScheduledInput::Release { .. }
+            )
+        };
+        inputs.find(drags)
+    }
+
     /// Takes a snapshot if one is due at this step.
     pub(super) fn remember(&mut self, run: &Simulation, step: u64, events: usize) {
         let every = (1.0 / (SNAPSHOTS * self.dt)).round().max(1.0) as u64;

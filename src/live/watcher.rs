@@ -26,9 +26,11 @@ impl Watcher {
         let mut news = Vec::new();
         let props = session.simulation().world().props().count();
         if self.scene != Some(session.generation) {
-            self.scene = Some(session.generation);
+            // What somebody asked for before the first hello is about this scene.
+            if self.scene.replace(session.generation).is_some() {
+                self.view.forget();
+            }
             (self.cuts, self.events, self.props) = (session.cuts, 0, props);
-            self.view.forget();
             news.push(session.hello(native));
             news.push(self.happened(session));
         }

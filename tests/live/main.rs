@@ -2,4 +2,10 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[cfg(unix)]
+mod browser;
+#[cfg(unix)]
+mod program;
+#[cfg(unix)]
+mod server;
 mod session;

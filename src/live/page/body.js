@@ -2,6 +2,7 @@
 // ghosts of poses that are past. Frame + hello → canvas.
 
 import { colour, mix, tone, clear } from "./look.js";
+import { reach } from "./camera.js";
 
 /** Outlines and lines as paths, in layers from back to front, once a hello. */
 export function pathsOf(hello) {
@@ -115,30 +116,37 @@ function shadow(ctx, view, x, half, low) {
   ctx.fill();
 }
 
+/** A ball has a radius alone; an outline's radius rounds it. */
 export function prop(ctx, view, what, x, y, angle, lit) {
-  const round = what.radius !== undefined;
-  const reach = round
-    ? what.radius
-    : Math.max(...what.outline.map(([a, b]) => Math.max(Math.abs(a), Math.abs(b))));
-  shadow(ctx, view, x, reach, y - reach);
+  const { outline, radius } = what;
+  const far = reach(what);
+  shadow(ctx, view, x, far, y - far);
   into(ctx, view, x, y, angle);
-  const fill = colour(round ? "ball" : "prop");
+  const fill = colour(outline ? "prop" : "ball");
   const edge = lit ? colour("pull") : mix(fill, colour("shadow"), 0.4);
-  ctx.lineWidth = (lit ? 3 : 1.3) / view.camera.scale;
-  ctx.lineJoin = "round";
+  const line = (lit ? 3 : 1.3) / view.camera.scale;
+  ctx.lineJoin = ctx.lineCap = "round";
+  ctx.beginPath();
+  if (outline) outline.forEach(([a, b], k) => (k === 0 ? ctx.moveTo(a, b) : ctx.lineTo(a, b)));
+  else ctx.arc(0, 0, radius, 0, 2 * Math.PI);
+  ctx.closePath();
   ctx.fillStyle = fill;
   ctx.strokeStyle = edge;
-  ctx.beginPath();
-  if (round) ctx.arc(0, 0, what.radius, 0, 2 * Math.PI);
-  else what.outline.forEach(([a, b], k) => (k === 0 ? ctx.moveTo(a, b) : ctx.lineTo(a, b)));
-  ctx.closePath();
+  ctx.lineWidth = line + (outline ? 2 * radius : 0);
   ctx.fill();
   ctx.stroke();
+  if (outline && radius > 0) {
+    ctx.strokeStyle = fill;
+    ctx.lineWidth = 2 * radius - line;
+    ctx.stroke();
+    ctx.strokeStyle = edge;
+  }
   // A line that shows how it turns.
+  ctx.lineWidth = line;
   ctx.beginPath();
   ctx.moveTo(0, 0);
-  if (round) ctx.lineTo(what.radius, 0);
-  else ctx.lineTo(...what.outline[0]);
+  if (outline) ctx.lineTo(...outline[0]);
+  else ctx.lineTo(radius, 0);
   ctx.globalAlpha = 0.45;
   ctx.stroke();
   ctx.globalAlpha = 1;

@@ -1,7 +1,8 @@
 // Where the stage looks: world (m, y up) ⇄ stage (CSS pixels, y down). It follows characters and
 // props smoothly, until somebody pans; zooming is a factor on top of what it chooses itself.
 
-const MARGIN = { left: 30, right: 30, top: 66, bottom: 74, low: 52 }; // px; `low` is the bottom of a low stage
+const MARGIN = { left: 30, right: 30, bottom: 74, low: 52 }; // px; `low` is the bottom of a low stage
+const ROOF = 66; // px
 const LOW_STAGE = 300; // px
 const WIDEST = 14; // m that it shows at most by itself
 const NEAR = 5; // m from a character within which a prop is kept in view
@@ -17,6 +18,8 @@ export function makeCamera() {
     height: 300,
     following: true,
     zoom: 1,
+    /** px at the top that are covered. */
+    roof: ROOF,
     resize(width, height) {
       camera.width = width;
       camera.height = height;
@@ -52,6 +55,10 @@ export function makeCamera() {
       camera.x += x - nx;
       camera.y += y - ny;
     },
+    /** Something reaches down to here from the top of the stage. */
+    cover(px) {
+      camera.roof = Math.max(ROOF, px);
+    },
     jump() {
       settled = false;
     },
@@ -85,7 +92,7 @@ export function makeCamera() {
   }
 
   function aim(box) {
-    const room = [camera.width - MARGIN.left - MARGIN.right, camera.height - MARGIN.top - bottom()].map(
+    const room = [camera.width - MARGIN.left - MARGIN.right, camera.height - camera.roof - bottom()].map(
       (v) => Math.max(v, 60),
     );
     const high = Math.max(box.high, 1.9) + 0.1;
@@ -136,5 +143,5 @@ export function boxOf(state) {
 
 /** Radius of the circle about a prop's origin that holds it. */
 export function reach(prop) {
-  return prop.radius ?? Math.max(...prop.outline.map(([x, y]) => Math.hypot(x, y)));
+  return prop.radius + Math.max(0, ...(prop.outline ?? []).map(([x, y]) => Math.hypot(x, y)));
 }

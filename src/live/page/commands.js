@@ -28,6 +28,9 @@ export function makeCommands(state) {
       (one.commands ?? []).map((command) => ({ command, weight: one.weight })),
     );
     own.sort((a, b) => (a.weight > 0) - (b.weight > 0));
+    const first = (own.find((one) => one.command.parameters.length > 0) ?? own[0])?.command;
+    const example = first?.parameters.slice(0, 1).map((one) => ` ${one.name}=${plain(one.default)}`) ?? "";
+    field.placeholder = first ? `Such as ${first.name}${example}` : "Nothing answers to a command";
     byId("commands").replaceChildren(
       ...own.map(({ command }) =>
         make(

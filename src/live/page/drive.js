@@ -48,11 +48,23 @@ export function makeDrive(state) {
       ...hello.characters.map((_, k) => {
         const dot = make("i", { class: "dot" });
         const text = make("b", {});
-        chips.push({ dot, text });
-        return make("span", { data: { character: k } }, dot, text);
+        const chip = make("span", { data: { character: k } }, dot, text);
+        chips.push({ chip, dot, text });
+        if (hello.characters.length > 1) {
+          mark(chip, "title", "Panels and keys are about this one");
+          chip.addEventListener("click", () => state.choose(k));
+        }
+        return chip;
       }),
     );
+    chosen();
   });
+  state.on("character", chosen);
+
+  /** Which of several characters the panels are about. */
+  function chosen() {
+    chips.forEach(({ chip }, k) => mark(chip, "data-chosen", chips.length > 1 && k === state.character));
+  }
 
   /** "balance · standing"; with the character's number if there are several. */
   function doing(one, k) {

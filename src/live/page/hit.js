@@ -29,8 +29,7 @@ export function bodyAt(state, x, y, slop) {
   props.forEach((prop, k) => {
     if (3 * k + 2 >= frame.p.length) return;
     const point = local(x, y, frame.p, k);
-    const gap =
-      prop.radius !== undefined ? Math.hypot(...point) - prop.radius : toOutline(point, prop.outline);
+    const gap = (prop.outline ? toOutline(point, prop.outline) : Math.hypot(...point)) - prop.radius;
     take(gap, 0, { prop: prop.name, place: k, point });
   });
   return best;

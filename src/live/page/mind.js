@@ -124,7 +124,7 @@ export function makeMind(state, contract) {
         fillIn(row, bid, now.active === k, most);
       }
     });
-    if (group) say(group.count, `${waiting} wait for their command`);
+    if (group) say(group.count, waiting === 1 ? "1 waits for its command" : `${waiting} wait for their command`);
     contract.update(now);
   }
 
@@ -163,5 +163,5 @@ export function makeMind(state, contract) {
 
 function lacking(node) {
   if (node.learned) return "outside what it has learned";
-  return `needs ${clause(node.text)}`;
+  return `needs ${clause(node.text).replace(/^posture is /, "posture ")}`;
 }

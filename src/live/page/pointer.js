@@ -37,6 +37,8 @@ export function makePointer(state, stage, camera) {
     show(byId("tool-options"), throws || tool === "push");
     show(byId("throw-options"), throws);
     show(byId("push-options"), tool === "push");
+    const options = byId("tool-options");
+    camera.cover(options.hidden ? 0 : options.offsetTop + options.offsetHeight + 8);
     if (throws) {
       byId("throw-size").value = SIZES[tool];
       byId("throw-size-name").textContent = tool === "ball" ? "radius, m" : "half side, m";

@@ -3,7 +3,7 @@
 
 import { byId } from "./dom.js";
 import { colour, refresh } from "./look.js";
-import { boxOf } from "./camera.js";
+import { boxOf, reach } from "./camera.js";
 import { pathsOf, figure, ghost, shadows, prop } from "./body.js";
 import { marks, ways } from "./marks.js";
 
@@ -161,7 +161,7 @@ export function makeStage(state, camera, on) {
     ctx.textBaseline = "bottom";
     props.forEach((what, k) => {
       if (3 * k + 2 >= frame.p.length) return;
-      const high = what.radius ?? Math.max(...what.outline.map((p) => Math.hypot(...p)));
+      const high = reach(what);
       const [x, y] = camera.toScreen(frame.p[3 * k], frame.p[3 * k + 1] + high);
       ctx.fillText(what.name, x, y - 3);
     });

@@ -105,7 +105,8 @@ export function makeTimeline(state) {
     ctx.fillRect(x - 0.5, MARKS_HIGH - 4, 1, size[1] - MARKS_HIGH - AXIS_HIGH + 4);
     ctx.lineWidth = 2;
     ctx.beginPath();
-    symbol.draw(ctx, x, 9);
+    // Whole, also at the ends.
+    symbol.draw(ctx, Math.min(Math.max(x, 7), size[0] - 7), 9);
   }
 
   function axis() {

@@ -61,7 +61,10 @@ export function makeWhy(state, drive, tabs, contract) {
     list.replaceChildren(...(event ? bidders(event) : []));
   }
 
-  const title = (event) => (event.from ? `${event.from} → ${event.to}` : `→ ${event.to}`);
+  function title(event) {
+    const who = state.hello.characters.length > 1 ? `${event.character + 1}: ` : "";
+    return `${who}${event.from ? `${event.from} ` : ""}→ ${event.to}`;
+  }
 
   /** What the text says beyond the names: in brackets, or all of it. */
   function detail(event) {
@@ -118,7 +121,7 @@ export function makeWhy(state, drive, tabs, contract) {
 
   function fill() {
     if (byId("panel-why").hidden) return;
-    const events = state.events.filter((one) => one.kind !== "release");
+    const events = state.events.filter((one) => one.kind !== "released");
     const from = Math.max(0, events.length - MOST_EVENTS);
     byId("events-list").replaceChildren(
       ...events.slice(from).map((event, k) =>

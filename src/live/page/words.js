@@ -69,10 +69,10 @@ const KINDS = {
   broke: "broke",
   fell: "fell",
   stood: "stood",
-  throw: "throw",
+  thrown: "thrown",
   set: "set",
-  drag: "drag",
-  release: "let go",
+  dragged: "dragged",
+  released: "let go",
   reload: "files read anew",
   branch: "went on from here",
 };

@@ -15,15 +15,16 @@ use tungstenite::{Error, Message, WebSocket};
 
 use crate::live::answer::told;
 use crate::live::request::LARGEST_OPENED;
-use crate::live::server::outbox::Outbox;
+use crate::live::server::outbox::{Letter, Outbox};
 use crate::live::server::{Said, http, page, saves};
 
 /// How long a connection waits for something to send before it listens again.
 const LISTENING: Duration = Duration::from_millis(8);
 /// Messages that are read before anything else is sent.
 const AT_ONCE: usize = 16;
-/// How often somebody is asked whether they are still there.
-const PING: Duration = Duration::from_secs(15);
+/// Frames that may be on their way. Each is followed by a ping: what nobody has answered waits in
+/// boxes on the way, where only old frames would pile up.
+const MOST_UNDER_WAY: u64 = 16;
 /// How long somebody may be silent, or take nothing.
 const SILENCE: Duration = Duration::from_secs(45);
 /// What may wait in the socket's own box, bytes.
@@ -104,9 +105,11 @@ impl Visitor {
             unsent: false,
             heard: Instant::now(),
             taken: Instant::now(),
-            pinged: Instant::now(),
+            frames: 0,
+            answered: 0,
         };
         while !self.stop.load(Ordering::Relaxed) && talk.go_on() {}
+        talk.outbox.close();
         // A last word, if they listen.
         drop(talk.socket.close(None));
         drop(talk.socket.flush());
@@ -121,10 +124,12 @@ struct Talk<'a> {
     outbox: Arc<Outbox>,
     /// Whether something that was written has not left yet.
     unsent: bool,
-    /// When they were last heard, took something, and were asked whether they are there.
+    /// When they were last heard and took something.
     heard: Instant,
     taken: Instant,
-    pinged: Instant,
+    /// Frames that were sent, and that have been read for sure.
+    frames: u64,
+    answered: u64,
 }
 
 impl Talk<'_> {
@@ -136,13 +141,6 @@ impl Talk<'_> {
         let now = Instant::now();
         if now - self.heard > SILENCE || (self.unsent && now - self.taken > SILENCE) {
             return false;
-        }
-        if now - self.pinged > PING && !self.unsent {
-            self.pinged = now;
-            self.unsent = true;
-            if !self.went(Message::Ping(Vec::new().into())) {
-                return false;
-            }
         }
         self.send() && self.listen()
     }
@@ -158,13 +156,20 @@ impl Talk<'_> {
         // Who is slow gets no frame before the last has left: only the newest is kept for them.
         let mut time = LISTENING;
         while !self.unsent {
-            let Some(text) = self.outbox.take(time) else {
-                return true;
+            let frames = self.frames - self.answered < MOST_UNDER_WAY;
+            let went = match self.outbox.take(time, frames) {
+                None => return true,
+                Some(Letter::Message(text)) => self.went(Message::text(text)),
+                Some(Letter::Frame(text)) => {
+                    self.frames += 1;
+                    let count = self.frames.to_le_bytes().to_vec();
+                    self.went(Message::text(text)) && self.went(Message::Ping(count.into()))
+                }
             };
-            time = Duration::ZERO;
-            if !self.went(Message::text(text)) {
+            if !went {
                 return false;
             }
+            time = Duration::ZERO;
         }
         true
     }
@@ -193,18 +198,29 @@ impl Talk<'_> {
         }
     }
 
+    /// Hands on what they say; whether there was room for it.
+    fn said(&self, text: &str) -> bool {
+        let (visitor, slot) = (self.visitor, self.outbox.slot());
+        let said = slot.map(|slot| Said::Text(visitor.id, text.to_owned(), slot));
+        said.is_some_and(|said| visitor.say.try_send(said).is_ok())
+    }
+
     fn listen(&mut self) -> bool {
         for _ in 0..AT_ONCE {
             match self.socket.read() {
                 Ok(Message::Text(text)) => {
                     self.heard = Instant::now();
-                    let said = Said::Text(self.visitor.id, text.as_str().to_owned());
-                    if self.visitor.say.try_send(said).is_err() {
+                    if !self.said(text.as_str()) {
                         let busy = "too much is asked at once: this was not heard";
                         self.outbox.put(told(false, busy));
                     }
                 }
                 Ok(Message::Close(_)) => return false,
+                Ok(Message::Pong(count)) => {
+                    self.heard = Instant::now();
+                    let count = count.as_ref().try_into().map_or(0, u64::from_le_bytes);
+                    self.answered = self.answered.max(count.min(self.frames));
+                }
                 Ok(_) => self.heard = Instant::now(),
                 Err(e) if would_block(&e) => return true,
                 Err(_) => return false,

@@ -10,12 +10,13 @@ mod outbox;
 mod page;
 mod reload;
 mod saves;
+mod unheard;
 
 use std::collections::BTreeMap;
 use std::net::{IpAddr, SocketAddr, TcpListener};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{SyncSender, sync_channel};
 use std::time::{Duration, Instant};
 
 use aplomb_framework::input::{Error, Result};
@@ -24,15 +25,16 @@ use crate::live::save::Replay;
 use crate::live::session::Session;
 use crate::live::watcher::Watcher;
 
-use outbox::Outbox;
+use outbox::{Outbox, Slot};
 pub use reload::Reload;
+use unheard::Unheard;
 
 /// At most so many connections at a time; others are turned away.
 const MOST_CONNECTIONS: usize = 64;
 /// Messages that wait to be heard.
 const MOST_WAITING: usize = 1024;
-/// Messages that are heard between two frames.
-const AT_ONCE: usize = 256;
+/// How long messages are heard before a frame is made, however many there are.
+const HEARING: Duration = Duration::from_millis(10);
 /// Frames a second.
 const FRAMES: f64 = 60.0;
 /// How long the doorkeeper sleeps while nobody knocks.
@@ -41,7 +43,7 @@ const DOORKEEPER: Duration = Duration::from_millis(5);
 /// What connections say to the session.
 enum Said {
     Joined(u64, Arc<Outbox>),
-    Text(u64, String),
+    Text(u64, String, Slot),
     Left(u64),
     /// Somebody wants what was done so far.
     Save(SyncSender<Replay>),
@@ -79,6 +81,7 @@ impl Server {
     /// Serves until `stop` is set. `reload` looks after the files that the scene was read from.
     pub fn serve(self, mut session: Session, mut reload: Option<Reload>, stop: &Arc<AtomicBool>) {
         let (say, heard) = sync_channel(MOST_WAITING);
+        let mut unheard = Unheard::new(heard);
         let doorkeeper = {
             let (stop, address) = (Arc::clone(stop), self.address);
             std::thread::spawn(move || keep_door(&self.listener, address, &say, &stop))
@@ -88,8 +91,12 @@ impl Server {
         let mut begun = false;
         let (mut last, mut next) = (Instant::now(), Instant::now() + between);
         while !stop.load(Ordering::Relaxed) {
-            for said in heard.try_iter().take(AT_ONCE) {
+            let until = Instant::now() + HEARING;
+            while let Some(said) = unheard.next() {
                 hear(said, &mut session, &mut watchers);
+                if Instant::now() > until {
+                    break;
+                }
             }
             if let Some(news) = reload.as_mut().and_then(|r| r.look(&mut session)) {
                 watchers.values().for_each(|w| w.outbox.put(news.clone()));
@@ -107,9 +114,10 @@ impl Server {
                 watcher.view.dropped = outbox.dropped();
                 outbox.put_frame(session.frame(&watcher.view));
             }
-            let now = Instant::now();
-            next = next.max(now);
-            wait(&heard, next - now, &mut session, &mut watchers);
+            next = next.max(Instant::now());
+            while let Some(said) = unheard.before(next) {
+                hear(said, &mut session, &mut watchers);
+            }
             next += between;
         }
         watchers.values().for_each(|w| w.outbox.close());
@@ -123,24 +131,6 @@ struct Connected {
     outbox: Arc<Outbox>,
 }
 
-/// Listens to the connections until the next frame is due.
-fn wait(
-    heard: &Receiver<Said>,
-    time: Duration,
-    session: &mut Session,
-    watchers: &mut BTreeMap<u64, Connected>,
-) {
-    let until = Instant::now() + time;
-    loop {
-        let left = until.saturating_duration_since(Instant::now());
-        match heard.recv_timeout(left) {
-            Ok(said) if !left.is_zero() => hear(said, session, watchers),
-            Ok(said) => return hear(said, session, watchers),
-            Err(_) => return std::thread::sleep(until.saturating_duration_since(Instant::now())),
-        }
-    }
-}
-
 fn hear(said: Said, session: &mut Session, watchers: &mut BTreeMap<u64, Connected>) {
     match said {
         Said::Joined(id, outbox) => {
@@ -148,8 +138,10 @@ fn hear(said: Said, session: &mut Session, watchers: &mut BTreeMap<u64, Connecte
             watchers.insert(id, Connected { watcher, outbox });
         }
         Said::Left(id) => drop(watchers.remove(&id)),
-        Said::Text(id, text) => {
+        Said::Text(id, text, _slot) => {
+            // Who is gone wants nothing any more.
             if let Some(Connected { watcher, outbox }) = watchers.get_mut(&id)
+                && !outbox.is_closed()
                 && let Some(refusal) = watcher.ask(session, &text)
             {
                 outbox.put(refusal);

@@ -3,9 +3,12 @@
 //! messages, frames → [`Outbox`] → the watcher's connection, in order; of frames only the newest.
 
 use std::collections::VecDeque;
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
+/// What one watcher may have said that is still to be heard, so that others are heard too.
+const MOST_UNHEARD: usize = 128;
 /// At most so many bytes wait; who lets more pile up is let go.
 const LARGEST: usize = 8 << 20;
 
@@ -23,12 +26,40 @@ struct Waiting {
 pub(super) struct Outbox {
     waiting: Mutex<Waiting>,
     changed: Condvar,
+    /// How much the watcher has said that the session has not heard yet.
+    unheard: AtomicUsize,
+}
+
+/// What is to be sent.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Letter {
+    /// It is sent for sure.
+    Message(String),
+    /// The newest.
+    Frame(String),
+}
+
+/// Room for one thing that a watcher says, until it was heard.
+#[derive(Debug)]
+pub(super) struct Slot(Arc<Outbox>);
+
+impl Drop for Slot {
+    fn drop(&mut self) {
+        self.0.unheard.fetch_sub(1, Ordering::Relaxed);
+    }
 }
 
 impl Outbox {
     fn waiting(&self) -> MutexGuard<'_, Waiting> {
         // Nobody panics while it is held, and nothing in it could be half done.
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Room for something that the watcher says; none while too much of it is unheard.
+    pub(super) fn slot(self: &Arc<Self>) -> Option<Slot> {
+        let before = self.unheard.fetch_add(1, Ordering::Relaxed);
+        let slot = Slot(Arc::clone(self));
+        (before < MOST_UNHEARD).then_some(slot)
     }
 
     /// Puts a message in; closes the box if too much is in it.
@@ -68,19 +99,25 @@ impl Outbox {
         self.waiting().closed
     }
 
-    /// Takes out what is next, waiting for it up to `time`.
-    pub(super) fn take(&self, time: Duration) -> Option<String> {
+    /// Takes out what is next, a frame only if wanted, waiting for it up to `time`.
+    pub(super) fn take(&self, time: Duration, frames: bool) -> Option<Letter> {
         let mut waiting = self.waiting();
-        let empty = |w: &Waiting| w.messages.is_empty() && w.frame.is_none();
-        if empty(&waiting) && !waiting.closed && !time.is_zero() {
-            let woken = self.changed.wait_timeout(waiting, time);
+        let until = Instant::now() + time;
+        loop {
+            if let Some(message) = waiting.messages.pop_front() {
+                waiting.bytes -= message.len();
+                return Some(Letter::Message(message));
+            }
+            if frames && let Some(frame) = waiting.frame.take() {
+                return Some(Letter::Frame(frame));
+            }
+            let left = until.saturating_duration_since(Instant::now());
+            if left.is_zero() || waiting.closed {
+                return None;
+            }
+            let woken = self.changed.wait_timeout(waiting, left);
             waiting = woken.unwrap_or_else(PoisonError::into_inner).0;
         }
-        if let Some(message) = waiting.messages.pop_front() {
-            waiting.bytes -= message.len();
-            return Some(message);
-        }
-        waiting.frame.take()
     }
 }
 
@@ -95,8 +132,12 @@ mod tests {
         outbox.put("a".into());
         outbox.put_frame("frame 2".into());
         outbox.put("b".into());
-        let taken: Vec<_> = std::iter::from_fn(|| outbox.take(Duration::ZERO)).collect();
-        assert_eq!(taken, ["a", "b", "frame 2"]);
+        let take = |frames| outbox.take(Duration::ZERO, frames);
+        let message = |text: &str| Some(Letter::Message(text.to_owned()));
+        assert_eq!(take(true), message("a"));
+        assert_eq!(take(false), message("b"));
+        assert_eq!(take(false), None);
+        assert_eq!(take(true), Some(Letter::Frame("frame 2".to_owned())));
         assert_eq!(outbox.dropped(), 1);
     }
 
@@ -107,6 +148,6 @@ mod tests {
             outbox.put("x".repeat(1 << 20));
         }
         assert!(outbox.is_closed());
-        assert_eq!(outbox.take(Duration::ZERO), None);
+        assert_eq!(outbox.take(Duration::ZERO, true), None);
     }
 }
