@@ -2,7 +2,9 @@
 # Everything that must hold before a change lands: format, lints, documentation, examples, all tests.
 # At the end, also of a failure, it prints how long each part took. It needs the Rust toolchain alone; on
 # two cores and without anything built it takes less than 25 minutes. See quick.sh for the unit tests
-# alone. PROPTEST_CASES=N tries N random cases in each property instead of those a test asks for.
+# alone. PROPTEST_CASES=N tries N random cases in each property instead of those a test asks for;
+# LIVE_MESSAGES=N sends the live view N random messages. The live page is tested in Debian's chromium, with
+# its chromium-driver; without them these tests are left out, or fail if CI is set.
 set -eu
 cd "$(dirname "$0")/.."
 begun=$(date +%s)

@@ -118,7 +118,7 @@ impl Driver {
         let profile = self.folder.path().join("profile");
         let mut flags: Vec<String> = FLAGS.map(str::to_owned).to_vec();
         flags.push(format!("--user-data-dir={}", profile.display()));
-        flags.push("--window-size=1440,900".to_owned());
+        flags.push("--window-size=1200,760".to_owned());
         let mut options = json!({
             "binary": chromium,
             "args": flags,
