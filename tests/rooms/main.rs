@@ -247,8 +247,7 @@ fn the_drawing_of_the_rooms_is_that_of_the_code() {
         }
         drawing += "  end\n";
     }
-    drawing +=
-        "  controllers --> framework\n  training --> controllers\n  aplomb --> training\n  web --> aplomb\n```\n";
+    drawing += "  controllers --> framework\n  training --> controllers\n  aplomb --> training\n  web --> aplomb\n```\n";
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("ARCHITECTURE.md");
     let text = std::fs::read_to_string(&path).unwrap();
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
