@@ -11,4 +11,4 @@ for program in chromium chromedriver; do
     }
 done
 [ -n "${PLAYGROUND:-}" ] || web/build.sh web/dist
-PLAYGROUND=${PLAYGROUND:-web/dist} cargo test --locked --test playground -- --ignored --nocapture --test-threads=1
+PLAYGROUND=${PLAYGROUND:-web/dist} cargo test --workspace --locked --test playground -- --ignored --nocapture --test-threads=1

@@ -44,7 +44,8 @@ impl Browser {
         let mut lines = BufReader::new(chromedriver.stdout.take().unwrap()).lines();
         let port = lines.by_ref().map_while(Result::ok).find_map(|line| {
             let port = line.rsplit_once("on port ")?.1;
-            port.trim_end_matches('.').parse().ok()
+            // It first says that it was told 0.
+            port.trim_end_matches('.').parse().ok().filter(|p| *p != 0)
         });
         // It may go on writing.
         std::thread::spawn(move || lines.for_each(drop));
@@ -71,27 +72,41 @@ impl Browser {
     }
 
     fn http(&self, method: &str, path: &str, body: &Value) -> Value {
-        let answer = self.send(method, path, body).expect("chromedriver answers");
-        let body = answer.split_once("\r\n\r\n").map_or("", |(_, body)| body);
-        let mut answer: Value = serde_json::from_str(body).unwrap();
+        let answer = self.send(method, path, body);
+        let answer = answer.unwrap_or_else(|e| panic!("{method} {path}: {e}"));
+        let mut answer: Value = serde_json::from_slice(&answer).unwrap();
         let value = answer["value"].take();
         assert!(value["error"].is_null(), "{method} {path}: {value}");
         value
     }
 
-    fn send(&self, method: &str, path: &str, body: &Value) -> std::io::Result<String> {
+    /// The body of the answer. Chromedriver leaves the connection open, whatever it is asked.
+    fn send(&self, method: &str, path: &str, body: &Value) -> std::io::Result<Vec<u8>> {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port))?;
         let body = body.to_string();
         write!(
             stream,
             "{method} {path} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nContent-Type: application/json\r\n\
-             Content-Length: {}\r\nConnection: close\r\n\r\n{body}",
+             Content-Length: {}\r\n\r\n{body}",
             self.port,
             body.len()
         )?;
-        let mut answer = String::new();
-        stream.read_to_string(&mut answer)?;
-        Ok(answer)
+        let mut answer = BufReader::new(stream);
+        let mut length = 0;
+        loop {
+            let mut line = String::new();
+            answer.read_line(&mut line)?;
+            match line.trim_end().split_once(':') {
+                Some((name, value)) if name.eq_ignore_ascii_case("content-length") => {
+                    length = value.trim().parse().unwrap_or(0);
+                }
+                None if line.trim_end().is_empty() => break,
+                _ => {}
+            }
+        }
+        let mut body = vec![0; length];
+        answer.read_exact(&mut body)?;
+        Ok(body)
     }
 
     fn call(&self, path: &str, body: &Value) -> Value {

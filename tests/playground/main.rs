@@ -72,7 +72,7 @@ fn the_page_lives_and_a_push_makes_the_character_step() {
     // (x, y, angle) of the pelvis: it has gone on by a step.
     let moved = after[0].as_f64().unwrap() - before[0].as_f64().unwrap();
     assert!(moved > 0.1, "moved by {moved} m");
-    assert_eq!(page.run("return aplomb.frame.c[0].standing"), true);
+    page.until("aplomb.frame.c[0].standing");
     for (name, begins) in [
         ("session.ron", "// What was done"),
         ("session.csv", "time,"),

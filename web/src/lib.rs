@@ -1,6 +1,6 @@
 //! A live session as WebAssembly: what `aplomb view` serves, inside of the page.
 //!
-//! The worker calls → a session's [`playground`] → messages, frames and files. The module imports
+//! The worker's calls → a session and its watcher → messages, frames and files. The module imports
 //! nothing: no clock, no random numbers, no files. The worker (`web/worker.js`) brings the time.
 //!
 //! Texts and bytes cross the border in two buffers. Inward: the worker asks for [`room`], writes
