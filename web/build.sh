@@ -35,9 +35,9 @@ rustup has it: rustup target add $triple"
     (
         cd "$folder"
         # shellcheck disable=SC2086
-        apt-get download rustc-web rust-web-src libstd-rust-web-dev "$std" $llvm libz3-4
+        apt-get download rustc-web rust-web-src libstd-rust-web-dev "$std" $llvm libz3-4 || exit
         for package in *.deb; do
-            dpkg -x "$package" .
+            dpkg -x "$package" . || exit
             rm "$package"
         done
     ) || fail "Debian's packages cannot be fetched: try apt-get update"
