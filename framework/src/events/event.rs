@@ -191,7 +191,8 @@ impl EventKind {
             Self::Thrown { prop } => format!("{prop} thrown"),
             Self::Dragged { body } => format!("{body} dragged"),
             Self::Released => "released".to_owned(),
-            Self::Set { name, value } => format!("{name} {value}"),
+            Self::Set { name, value } if value.is_finite() => format!("{name} {value}"),
+            Self::Set { name, .. } => format!("{name} changed"),
             Self::Switch { .. } | Self::Refused { .. } => return None,
         })
     }
