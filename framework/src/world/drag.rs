@@ -17,7 +17,7 @@ const DAMPING: f64 = 0.7;
 /// The strongest pull, in weights of what is dragged.
 const STRONGEST: f64 = 3.0;
 /// Part of a body's speed that damping may take in a step: more would make a light hand tremble.
-const STEADY: f64 = 0.3;
+const STEADY: f64 = 0.1;
 
 impl World {
     /// Begins to drag, drags on, or (none) lets go.
@@ -95,8 +95,10 @@ mod tests {
     use crate::character::{Model, State};
     use crate::world::Settings;
 
-    /// A limp humanoid, dragged up by a link for 3 s; the highest speed of any link in the last one.
-    fn dragged_up(link: &str) -> (World, f64) {
+    /// A limp humanoid, dragged up by a link for 10 s; of the last 5 s the mean vertical force of the
+    /// spring and its mean change from a step to the next, N. The limbs swing on: the joints have
+    /// no friction.
+    fn dragged_up(link: &str) -> (World, [f64; 2]) {
         let model = Model::load("humanoid").unwrap();
         let mut world = World::new(Settings::default());
         let it = world.spawn(&model, &State::standing(&model));
@@ -106,36 +108,32 @@ mod tests {
             link,
         };
         world.set_pull(Some(Pull::new(dragged, [0.0; 2], [0.0, 2.5])));
-        let mut fastest = 0.0_f64;
-        for step in 0..6000 {
+        let (mut mean, mut trembling, mut before) = (0.0, 0.0, [0.0; 2]);
+        for step in 0..10_000 {
             world.sense(it);
             world.actuate(it, &vec![0.0; model.joint_count()]);
             world.step();
+            let force = world.pull().unwrap().force;
             if step >= 5000 {
-                let links = &world.characters()[it].sensors.kinematics.links;
-                let speeds = links
-                    .iter()
-                    .map(|l| l.com_velocity[0].hypot(l.com_velocity[1]));
-                fastest = speeds.fold(fastest, f64::max);
+                mean += force[1] / 5000.0;
+                trembling += hypot(force[0] - before[0], force[1] - before[1]) / 5000.0;
             }
+            before = force;
         }
-        (world, fastest)
+        (world, [mean, trembling])
     }
 
     #[test]
-    fn who_is_dragged_up_hangs_still_under_the_hand() {
+    fn who_is_dragged_up_hangs_under_a_hand_that_does_not_tremble() {
         for link in ["torso", "forearm_r", "foot_l", "head"] {
-            let (world, fastest) = dragged_up(link);
+            let (world, [mean, trembling]) = dragged_up(link);
             let pull = *world.pull().unwrap();
             let at = world.place_of(pull.dragged, pull.point);
             let weight = 9.81 * world.characters()[0].body.model().total_mass();
-            assert!((at[1] - 2.5).abs() < 0.25, "{link} at {at:?}");
-            assert!(
-                (pull.force[1] - weight).abs() < 0.2 * weight,
-                "{link}: {:?}",
-                pull.force
-            );
-            assert!(fastest < 1.0, "{link} moves at {fastest}");
+            assert!((at[1] - 2.5).abs() < 0.5, "{link} at {at:?}");
+            let bears = (mean - weight).abs() < 0.1 * weight;
+            assert!(bears, "{link}: {mean} N on the mean");
+            assert!(trembling < 0.01 * weight, "{link}: {trembling} N a step");
         }
     }
 
