@@ -5,6 +5,9 @@
 #[cfg(unix)]
 mod browser;
 #[cfg(unix)]
+#[path = "../common/chromium.rs"]
+mod chromium;
+#[cfg(unix)]
 mod program;
 #[cfg(unix)]
 mod server;

@@ -10,19 +10,10 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// What Chromium needs to run quietly, without a screen and as root.
-const FLAGS: [&str; 10] = [
-    "--headless=new",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--disable-dev-shm-usage",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--window-size=1440,900",
-];
+use crate::chromium::FLAGS;
+
+/// The size of the window, px.
+const WINDOW: &str = "--window-size=1440,900";
 /// How long something may take to become true.
 const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -57,6 +48,7 @@ impl Browser {
             _profile: profile,
         };
         let mut flags: Vec<String> = FLAGS.map(str::to_owned).to_vec();
+        flags.push(WINDOW.to_owned());
         let folder = browser._profile.path().display();
         flags.push(format!("--user-data-dir={folder}"));
         let wanted = json!({

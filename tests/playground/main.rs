@@ -4,6 +4,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod browser;
+#[path = "../common/chromium.rs"]
+mod chromium;
 mod site;
 
 use std::path::{Path, PathBuf};

@@ -153,29 +153,13 @@ fn distinct(name: &str, taken: &mut BTreeSet<String>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
-    use crate::run::trajectory::{Cast, Header, push_character};
-    use crate::sensing::Sensors;
+    use crate::run::trajectory::push_character;
+    use crate::run::trajectory::tests::of_humanoids;
 
     /// Two humanoids, so many steps of 1 ms.
     fn recording(steps: usize) -> Trajectory {
-        let model = Model::load("humanoid").unwrap();
-        let cast = Cast {
-            model: model.source.clone(),
-            controllers: vec!["rest".into()],
-        };
-        let header = Header {
-            scenario: "x".into(),
-            seed: 3,
-            dt: 1e-3,
-            cast: vec![cast.clone(), cast],
-            props: vec![],
-        };
-        let models = vec![Arc::clone(&model), Arc::clone(&model)];
-        let mut trajectory = Trajectory::new(header, models);
-        let mut now = Sensors::new(&model, 9.81);
+        let (mut trajectory, mut now) = of_humanoids(2);
         for i in 0..steps {
             now.state.q[2] = 0.25;
             let mut row = Vec::new();

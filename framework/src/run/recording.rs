@@ -160,23 +160,10 @@ mod tests {
     use super::*;
     use crate::events::EventKind;
     use crate::run::trajectory::push_character;
-    use crate::sensing::Sensors;
+    use crate::run::trajectory::tests::of_humanoids;
 
     fn recording() -> Trajectory {
-        let model = Model::load("humanoid").unwrap();
-        let cast = Cast {
-            model: model.source.clone(),
-            controllers: vec!["rest".into()],
-        };
-        let header = Header {
-            scenario: "x".into(),
-            seed: 3,
-            dt: 1e-3,
-            cast: vec![cast],
-            props: vec![],
-        };
-        let mut t = Trajectory::new(header, vec![Arc::clone(&model)]);
-        let mut now = Sensors::new(&model, 9.81);
+        let (mut t, mut now) = of_humanoids(1);
         for i in 0..50 {
             now.state.q[4] = f64::from(i).sin();
             let mut row = Vec::new();

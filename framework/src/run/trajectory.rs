@@ -298,3 +298,6 @@ impl Trajectory {
         digest.text()
     }
 }
+
+#[cfg(test)]
+pub(crate) mod tests;

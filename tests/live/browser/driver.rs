@@ -19,19 +19,11 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 use tokio::runtime::Runtime;
 
+use crate::chromium::FLAGS;
 use crate::program::PATIENCE;
 
-/// What Chromium needs to run quietly, without a screen and as root.
-const FLAGS: [&str; 12] = [
-    "--headless=new",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--disable-dev-shm-usage",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
+/// Beside those that every test needs.
+const MORE_FLAGS: [&str; 3] = [
     "--disable-extensions",
     // It ends when chromedriver does.
     "--remote-debugging-pipe",
@@ -117,6 +109,7 @@ impl Driver {
     fn connect(&mut self, chromium: &Path, screen: Screen) {
         let profile = self.folder.path().join("profile");
         let mut flags: Vec<String> = FLAGS.map(str::to_owned).to_vec();
+        flags.extend(MORE_FLAGS.map(str::to_owned));
         flags.push(format!("--user-data-dir={}", profile.display()));
         flags.push("--window-size=1200,760".to_owned());
         let mut options = json!({
