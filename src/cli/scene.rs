@@ -80,14 +80,7 @@ impl CastArgs {
             Some(name) => aplomb::scenarios::load(name)?,
             None => Scenario::standing("humanoid", otherwise),
         };
-        let first = &mut scenario.characters[0];
-        if let Some(character) = &self.character {
-            first.character.clone_from(character);
-            first.repertoire = None;
-        }
-        if self.repertoire.is_some() {
-            first.repertoire.clone_from(&self.repertoire);
-        }
+        scenario.recast(self.character.as_deref(), self.repertoire.as_deref());
         for (i, role) in scenario.characters.iter().enumerate() {
             // What an argument has put there stands nowhere in the scenario's file.
             let told = |field, by_argument: bool, e: Error| {
@@ -126,15 +119,10 @@ pub(super) fn set_all(scenario: &mut Scenario, settings: &[Setting]) -> Result<(
 /// What is known when a repertoire is neither shipped nor a file.
 fn unknown_repertoire(role: &Participant, model: &Model, registry: &Registry) -> Option<Error> {
     let name = role.repertoire(model);
-    let shipped = registry.file(&format!("repertoires/{name}.ron"));
-    if shipped.is_some() || Path::new(name).exists() {
+    if registry.repertoire(name).is_some() || Path::new(name).exists() {
         return None;
     }
-    let known = registry.files().filter_map(|f| {
-        let file = f.strip_prefix("repertoires/")?;
-        file.strip_suffix(".ron")
-    });
-    Some(Error::unknown("repertoire", name, known))
+    Some(Error::unknown("repertoire", name, registry.repertoires()))
 }
 
 /// Begins to record, unless the whole run would not fit into memory.

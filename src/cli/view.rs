@@ -7,7 +7,7 @@ use std::net::IpAddr;
 
 use anyhow::Result;
 use aplomb::live::server::{Reload, Server};
-use aplomb::live::{LiveScene, SceneNames, Session};
+use aplomb::live::{LiveScene, Session};
 use clap::Args;
 
 use super::Ending;
@@ -48,6 +48,16 @@ impl ViewArgs {
     pub(super) fn run(self, out: &mut dyn Write) -> Result<Ending> {
         let registry = aplomb::controllers::registry();
         let scene = LiveScene::new(self.scene.load(OTHERWISE, &registry)?, &registry)?;
+        let used = self.scene.names(&scene.scenario);
+        let (arguments, kinds) = (self.scene, registry.clone());
+        let build = move || {
+            let scenario = arguments
+                .load(OTHERWISE, &kinds)
+                .map_err(|e| format!("{e:#}"))?;
+            LiveScene::new(scenario, &kinds).map_err(|e| e.to_string())
+        };
+        let reload = Reload::new(Box::new(build), &used, &scene, &registry);
+        let session = Session::with(scene, registry)?;
         let server = Server::bind(self.host, self.port)?;
         let url = format!("http://{}/", server.address());
         writeln!(out, "{url}")?;
@@ -59,16 +69,6 @@ impl ViewArgs {
         {
             message(format_args!("cannot open a browser: {e}"));
         }
-        let used = self.scene.names(&scene.scenario);
-        let (arguments, kinds) = (self.scene, registry.clone());
-        let build = move || {
-            let scenario = arguments
-                .load(OTHERWISE, &kinds)
-                .map_err(|e| format!("{e:#}"))?;
-            LiveScene::new(scenario, &kinds).map_err(|e| e.to_string())
-        };
-        let reload = Reload::new(Box::new(build), &used, &scene, &registry);
-        let session = Session::with(scene, SceneNames::default(), registry)?;
         server.serve(session, reload, &stop);
         Ok(Ending::Done)
     }

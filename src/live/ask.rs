@@ -13,29 +13,12 @@ use crate::live::request::{DragBody, Request, Thrown};
 use crate::live::scene::SceneNames;
 use crate::live::session::Session;
 
-/// What a request has changed, for watchers to be told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Changed {
-    /// Nothing that is not in the next frame.
-    Nothing,
-    /// The scene: everything is told anew.
-    Scene,
-}
-
 impl Session {
     /// Does what is asked for. `view` is the watcher's.
     ///
     /// # Errors
     /// What cannot be done, and why; nothing has changed then.
     pub fn ask(&mut self, view: &mut View, request: Request) -> Result<()> {
-        let changed = self.answer(view, request)?;
-        if changed == Changed::Scene {
-            self.generation += 1;
-        }
-        Ok(())
-    }
-
-    fn answer(&mut self, view: &mut View, request: Request) -> Result<Changed> {
         match request {
             Request::Play if self.is_over() => {
                 let accepted = "an hour at the longest; reset to begin anew";
@@ -81,11 +64,8 @@ impl Session {
             }
             Request::Release => self.act(ScheduledInput::Release { at: self.at() })?,
             Request::Throw(thrown) => self.throw(&thrown)?,
-            Request::Set { name, value } => return self.set(&name, value),
-            Request::Reset => {
-                self.begin(self.scene.clone())?;
-                return Ok(Changed::Scene);
-            }
+            Request::Set { name, value } => self.set(&name, value)?,
+            Request::Reset => self.begin(self.scene.clone())?,
             Request::Load {
                 scenario,
                 character,
@@ -97,15 +77,10 @@ impl Session {
                     repertoire,
                 };
                 names.check_shipped(&self.registry)?;
-                let scene = names.scene(&self.registry)?;
-                self.begin(scene)?;
-                self.names = names;
-                return Ok(Changed::Scene);
+                self.begin(names.scene(&self.registry)?)?;
             }
             Request::Open { name, text } => {
-                let scene = self.scene.with(&Source::new(name, text), &self.registry)?;
-                self.begin(scene)?;
-                return Ok(Changed::Scene);
+                self.begin(self.scene.with(&Source::new(name, text), &self.registry)?)?;
             }
             Request::Watch { features } => view.watch(&features, &self.now)?,
             Request::Inspect {
@@ -119,7 +94,7 @@ impl Session {
                     .map(|c| (character, c));
             }
         }
-        Ok(Changed::Nothing)
+        Ok(())
     }
 
     /// Now, as the time of an input.
@@ -183,24 +158,22 @@ impl Session {
         })
     }
 
-    fn set(&mut self, name: &str, value: f64) -> Result<Changed> {
+    /// Friction and gravity change at once; all else, and parameters of the scenario with their
+    /// names, is how a run begins.
+    fn set(&mut self, name: &str, value: f64) -> Result<()> {
         // The scenario's own bounds, also for what takes effect at once.
         let mut changed = self.scene.clone();
         changed.scenario.set(name, value)?;
+        let own = changed.scenario.parameters.contains_key(name);
         let setting = match name {
-            "friction" => Changeable::Friction,
-            "gravity" => Changeable::Gravity,
-            _ => {
-                self.begin(changed)?;
-                return Ok(Changed::Scene);
-            }
+            "friction" if !own => Changeable::Friction,
+            "gravity" if !own => Changeable::Gravity,
+            _ => return self.begin(changed),
         };
-        if self.scene.scenario.parameters.contains_key(name) {
-            self.begin(changed)?;
-            return Ok(Changed::Scene);
-        }
-        let (at, value) = (self.at(), value.into());
-        self.act(ScheduledInput::Set { at, setting, value })?;
-        Ok(Changed::Nothing)
+        self.act(ScheduledInput::Set {
+            at: self.at(),
+            setting,
+            value: value.into(),
+        })
     }
 }

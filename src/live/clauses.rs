@@ -67,19 +67,9 @@ fn size(condition: &Condition) -> usize {
     1 + children(condition).iter().map(size).sum::<usize>()
 }
 
-/// The value that a clause bounds.
-fn value(condition: &Condition, now: &Sensors) -> Option<f64> {
-    match condition {
-        Condition::Within { feature, .. } => Some(feature.value(now)),
-        Condition::Svm(boundary) => Some(boundary.score(now)),
-        Condition::Not(c) => value(c, now),
-        _ => None,
-    }
-}
-
 /// Whether each clause holds, and the value that it bounds.
 pub(super) fn states(condition: &Condition, now: &Sensors) -> Vec<(u8, Option<f64>)> {
-    let mut states = vec![(u8::from(condition.holds(now)), value(condition, now))];
+    let mut states = vec![(u8::from(condition.holds(now)), condition.value(now))];
     for child in children(condition) {
         states.extend(self::states(child, now));
     }
@@ -100,7 +90,7 @@ pub(super) fn refusing(condition: &Condition, now: &Sensors) -> Option<(usize, O
             place += size(child);
         }
     }
-    Some((0, value(condition, now)))
+    Some((0, condition.value(now)))
 }
 
 #[cfg(test)]

@@ -7,9 +7,9 @@ use aplomb_framework::control::{Controller, Supervisor};
 use aplomb_framework::events::Refusal;
 use aplomb_framework::input::Result;
 use aplomb_framework::run::Simulation;
-use aplomb_framework::scenario::{DragTarget, ScheduledInput};
+use aplomb_framework::scenario::ScheduledInput;
 use aplomb_framework::sensing::{Feature, Sensors};
-use aplomb_framework::world::{Dragged, Pull};
+use aplomb_framework::world::Pull;
 use serde::Serialize;
 
 use crate::live::clauses;
@@ -155,17 +155,14 @@ impl Session {
     fn drag(&self) -> Option<DragFrame> {
         let world = self.now.world();
         let pull = match self.history.drag_at(self.step) {
-            Some(ScheduledInput::Drag {
-                what, point, to, ..
-            }) => {
-                let dragged = match what {
-                    DragTarget::Link { name, character } => {
-                        let model = self.now.sensors(*character).model.clone();
-                        let (character, link) = (*character, model.link_index(name).ok()?);
-                        Dragged::Link { character, link }
-                    }
-                    DragTarget::Prop(prop) => Dragged::Prop(*prop),
-                };
+            Some(
+                input @ ScheduledInput::Drag {
+                    what, point, to, ..
+                },
+            ) => {
+                let dragged = what
+                    .resolved(&self.now.sensors(input.character()).model)
+                    .ok()?;
                 let mut next = Pull::new(dragged, *point, *to);
                 next.force = world.pull().map_or([0.0; 2], |now| now.force);
                 next

@@ -123,9 +123,6 @@ impl Session {
     /// outside of the watcher's page.
     #[must_use]
     pub fn hello(&self, native: bool) -> String {
-        let files = self.registry.files();
-        let repertoires =
-            files.filter_map(|f| f.strip_prefix("repertoires/")?.strip_suffix(".ron"));
         let scenario = &self.scene.scenario;
         let hello = Hello {
             is: "hello",
@@ -145,7 +142,7 @@ impl Session {
             shipped: Shipped {
                 scenarios: scenarios::shipped().into_iter().map(|(n, _)| n).collect(),
                 characters: Model::built_in().into_iter().map(|(n, _)| n).collect(),
-                repertoires: repertoires.collect(),
+                repertoires: self.registry.repertoires().collect(),
             },
             features: features(self.now.world().characters()[0].body.model()),
         };

@@ -61,14 +61,7 @@ impl SceneNames {
             Some(name) => scenarios::load(name)?,
             None => Scenario::standing("humanoid", OTHERWISE),
         };
-        let first = &mut scenario.characters[0];
-        if let Some(character) = &self.character {
-            first.character.clone_from(character);
-            first.repertoire = None;
-        }
-        if self.repertoire.is_some() {
-            first.repertoire.clone_from(&self.repertoire);
-        }
+        scenario.recast(self.character.as_deref(), self.repertoire.as_deref());
         LiveScene::new(scenario, registry)
     }
 }
@@ -80,9 +73,8 @@ fn shipped_only(character: &str, repertoire: Option<&str>, registry: &Registry) 
         return Err(Error::unknown("character", character, known).inside("character"));
     }
     match repertoire {
-        Some(name) if registry.file(&format!("repertoires/{name}.ron")).is_none() => {
-            let files = registry.files();
-            let known = files.filter_map(|f| f.strip_prefix("repertoires/")?.strip_suffix(".ron"));
+        Some(name) if registry.repertoire(name).is_none() => {
+            let known = registry.repertoires();
             Err(Error::unknown("repertoire", name, known).inside("repertoire"))
         }
         _ => Ok(()),
@@ -93,20 +85,10 @@ impl LiveScene {
     /// A scenario with the characters and repertoires that it names.
     ///
     /// # Errors
-    /// As [`Simulation::new`].
+    /// As [`Simulation::cast`]. What only beginning shows is found in [`Self::begin`].
     pub fn new(scenario: Scenario, registry: &Registry) -> Result<Self> {
-        let mut cast = Vec::with_capacity(scenario.characters.len());
-        for (i, role) in scenario.characters.iter().enumerate() {
-            let of = |field| move |e: Error| e.inside(field).inside(("characters", i));
-            let model = Model::load(&role.character);
-            let model = model.map_err(|e| scenario.locate(of("character")(e)))?;
-            let supervisor = repertoire::load(role.repertoire(&model), registry, &model);
-            let supervisor = supervisor.map_err(|e| scenario.locate(of("repertoire")(e)))?;
-            cast.push((model, supervisor));
-        }
-        let scene = Self { scenario, cast };
-        scene.begin()?;
-        Ok(scene)
+        let cast = Simulation::cast(&scenario, registry)?;
+        Ok(Self { scenario, cast })
     }
 
     /// The run before its first step.
@@ -139,15 +121,12 @@ impl LiveScene {
             }
             Opened::Character => {
                 let new = Arc::new(Model::parse(source)?);
-                let role = &mut scene.scenario.characters[0];
-                let own = registry.file(&format!("repertoires/{}.ron", new.name));
                 // A character without a repertoire of its own is tried with the one in use.
-                let text = match own {
-                    Some(own) => own,
-                    None => registry
-                        .file(&format!("repertoires/{}.ron", role.repertoire(model)))
-                        .unwrap_or_default(),
-                };
+                let in_use = scene.scenario.characters[0].repertoire(model);
+                let own = registry.repertoire(&new.name);
+                let text = own
+                    .or_else(|| registry.repertoire(in_use))
+                    .unwrap_or_default();
                 *supervisor = repertoire::build(&text, None, registry, &new)?;
                 *model = new;
             }
@@ -160,7 +139,6 @@ impl LiveScene {
                 *supervisor = supervisor.with(controller)?;
             }
         }
-        scene.begin()?;
         Ok(scene)
     }
 }

@@ -23,7 +23,7 @@ const NEWEST: f64 = 0.1;
 /// ```
 /// use aplomb::live::{Request, SceneNames, Session, View};
 ///
-/// let mut session = Session::new(SceneNames::default())?; // the humanoid, standing
+/// let mut session = Session::new(&SceneNames::default())?; // the humanoid, standing
 /// let mut view = View::default();
 /// session.ask(&mut view, Request::parse(r#"{"do":"push","link":"torso","impulse":[60,0]}"#)?)?;
 /// for _ in 0..60 {
@@ -39,8 +39,6 @@ const NEWEST: f64 = 0.1;
 pub struct Session {
     pub(super) registry: Registry,
     pub(super) scene: LiveScene,
-    /// What the scene was made of, as far as it has names.
-    pub(super) names: SceneNames,
     pub(super) history: History,
     pub(super) now: Simulation,
     pub(super) step: u64,
@@ -67,23 +65,22 @@ impl Session {
     ///
     /// # Errors
     /// Unknown names, unreadable or invalid files.
-    pub fn new(names: SceneNames) -> Result<Self> {
+    pub fn new(names: &SceneNames) -> Result<Self> {
         let registry = aplomb_controllers::registry();
         let scene = names.scene(&registry)?;
-        Self::with(scene, names, registry)
+        Self::with(scene, registry)
     }
 
     /// Begins with a scene that was built elsewhere.
     ///
     /// # Errors
     /// Links, joints or commands that its characters lack.
-    pub fn with(scene: LiveScene, names: SceneNames, registry: Registry) -> Result<Self> {
+    pub fn with(scene: LiveScene, registry: Registry) -> Result<Self> {
         let now = scene.begin()?;
         Ok(Self {
             history: History::new(&now),
             registry,
             scene,
-            names,
             now,
             step: 0,
             end: 0,
@@ -212,37 +209,19 @@ impl Session {
         self.cuts += 1;
     }
 
-    /// Begins with another scene; keeps pace and pause.
-    pub(super) fn begin(&mut self, scene: LiveScene) -> Result<()> {
-        let names = std::mem::take(&mut self.names);
-        let begun = Self::with(scene, names.clone(), self.registry.clone());
-        match begun {
-            Ok(begun) => {
-                let (paused, speed) = (self.paused, self.speed);
-                let (generation, cuts) = (self.generation, self.cuts + 1);
-                *self = Self {
-                    paused,
-                    speed,
-                    generation,
-                    cuts,
-                    ..begun
-                };
-                Ok(())
-            }
-            Err(e) => {
-                self.names = names;
-                Err(e)
-            }
-        }
-    }
-
-    /// Another scene in the place of this one.
+    /// Begins with another scene; keeps pace and pause. Watchers are told everything anew.
     ///
     /// # Errors
-    /// As [`Self::with`]; the old one then stays.
-    pub fn replace(&mut self, scene: LiveScene) -> Result<()> {
-        self.begin(scene)?;
-        self.generation += 1;
+    /// As [`Self::with`]; the old scene then stays.
+    pub fn begin(&mut self, scene: LiveScene) -> Result<()> {
+        let begun = Self::with(scene, self.registry.clone())?;
+        *self = Self {
+            paused: self.paused,
+            speed: self.speed,
+            generation: self.generation + 1,
+            cuts: self.cuts + 1,
+            ..begun
+        };
         Ok(())
     }
 

@@ -12,7 +12,7 @@ fn session(scenario: Option<&str>) -> Session {
         scenario,
         ..SceneNames::default()
     };
-    Session::new(names).unwrap()
+    Session::new(&names).unwrap()
 }
 
 fn ask(session: &mut Session, text: &str) -> Result<()> {

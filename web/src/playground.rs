@@ -20,7 +20,7 @@ impl Playground {
     /// Begins with the scene that the program begins with.
     pub(crate) fn new() -> Result<Self> {
         Ok(Self {
-            session: Session::new(SceneNames::default())?,
+            session: Session::new(&SceneNames::default())?,
             watcher: Watcher::default(),
             waiting: VecDeque::new(),
         })

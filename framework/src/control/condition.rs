@@ -126,11 +126,14 @@ impl Condition {
         }
     }
 
-    /// The value that it bounds.
-    fn value(&self, now: &Sensors) -> Option<f64> {
+    /// The value that it bounds: its feature's, a learned boundary's score; of a negation that of what
+    /// it negates.
+    #[must_use]
+    pub fn value(&self, now: &Sensors) -> Option<f64> {
         match self {
             Self::Within { feature, .. } => Some(feature.value(now)),
             Self::Svm(boundary) => Some(boundary.score(now)),
+            Self::Not(c) => c.value(now),
             _ => None,
         }
     }

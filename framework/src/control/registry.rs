@@ -108,6 +108,9 @@ fn empty() -> Box<RawValue> {
         .unwrap_or_else(|_| unreachable!("() is RON"))
 }
 
+/// The folder of the shipped repertoires.
+pub(super) const REPERTOIRES: &str = "repertoires/";
+
 type Build = fn(&Source, &RawValue, Contract, &Arc<Model>) -> Result<Box<dyn Controller>>;
 
 /// The kinds of controllers and the shipped files that can be referred to by name.
@@ -154,6 +157,18 @@ impl Registry {
     pub fn file(&self, name: &str) -> Option<Source> {
         let text = self.files.get(name)?;
         Some(Source::new(format!("built-in {name}"), *text))
+    }
+
+    /// A shipped repertoire by its name: `humanoid` is `repertoires/humanoid.ron`.
+    #[must_use]
+    pub fn repertoire(&self, name: &str) -> Option<Source> {
+        self.file(&format!("{REPERTOIRES}{name}.ron"))
+    }
+
+    /// Names of the shipped repertoires.
+    pub fn repertoires(&self) -> impl Iterator<Item = &str> {
+        let name = |file| str::strip_prefix(file, REPERTOIRES)?.strip_suffix(".ron");
+        self.files().filter_map(name)
     }
 
     /// Names of the shipped files.

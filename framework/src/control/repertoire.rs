@@ -14,7 +14,7 @@ use crate::control::Boundary;
 use crate::control::boundary::LARGEST_BOUNDARY;
 use crate::control::condition::Condition;
 use crate::control::pool;
-use crate::control::registry::{ControllerFile, Registry};
+use crate::control::registry::{ControllerFile, REPERTOIRES, Registry};
 use crate::control::supervisor::Supervisor;
 use crate::input::{Error, FieldPath, LARGEST_TEXT, Result, Source, check, shortened};
 
@@ -144,7 +144,7 @@ pub fn read(name_or_path: &str, registry: &Registry) -> Result<Vec<ControllerFil
 
 /// The repertoire's text, and the folder beside it if it is a file.
 fn open<'a>(name_or_path: &'a str, registry: &Registry) -> Result<(Source, Option<&'a Path>)> {
-    if let Some(source) = registry.file(&format!("repertoires/{name_or_path}.ron")) {
+    if let Some(source) = registry.repertoire(name_or_path) {
         return Ok((source, None));
     }
     let path = Path::new(name_or_path);
@@ -225,7 +225,7 @@ impl EntryKind {
         match self {
             Self::Boundary => shipped.ends_with(".boundary.ron"),
             Self::Controller => {
-                !shipped.ends_with(".boundary.ron") && !shipped.starts_with("repertoires/")
+                !shipped.ends_with(".boundary.ron") && !shipped.starts_with(REPERTOIRES)
             }
         }
     }

@@ -3,7 +3,9 @@
 //! scenario → [`Simulation`] → events, [`Outcome`], [`Trajectory`].
 
 mod actor;
+
 mod export;
+mod inputs;
 mod judge;
 mod recording;
 mod schedule;

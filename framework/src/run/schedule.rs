@@ -5,8 +5,8 @@
 use crate::character::{Model, Point};
 use crate::control::Supervisor;
 use crate::input::{Error, Result};
-use crate::scenario::{Changeable, DragTarget, Number, Scenario, ScheduledInput};
-use crate::world::{Dragged, Prop, Pull};
+use crate::scenario::{Changeable, Number, Scenario, ScheduledInput};
+use crate::world::{Prop, Pull};
 
 /// What is done.
 #[derive(Debug, Clone)]
@@ -82,13 +82,7 @@ impl TimedInput {
             ScheduledInput::Drag {
                 what, point, to, ..
             } => {
-                let dragged = match what {
-                    DragTarget::Link { name, character } => Dragged::Link {
-                        character: *character,
-                        link: model.link_index(name).map_err(|e| e.inside("what"))?,
-                    },
-                    DragTarget::Prop(prop) => Dragged::Prop(*prop),
-                };
+                let dragged = what.resolved(model).map_err(|e| e.inside("what"))?;
                 Input::Drag(Pull::new(dragged, *point, *to))
             }
             ScheduledInput::Release { .. } => Input::Release,

@@ -7,16 +7,16 @@ use std::sync::Arc;
 
 use crate::character::Model;
 use crate::control::{Controller, Registry, Supervisor, repertoire};
-use crate::events::{Event, EventKind, Unmet};
+use crate::events::Event;
 use crate::input::{Error, Result};
 use crate::run::actor::{Actor, Outcome};
 use crate::run::schedule::{Input, Schedule, TimedInput};
 use crate::run::start::start_state;
 use crate::run::trajectory::{Cast, Digest, Header, Trajectory, push_character};
 use crate::run::watch::Watch;
-use crate::scenario::{Changeable, MOST_ENTRIES, PUSH_DURATION, Scenario, ScheduledInput};
+use crate::scenario::{Scenario, ScheduledInput};
 use crate::sensing::Sensors;
-use crate::world::{Dragged, Prop, Pull, World};
+use crate::world::{Prop, World};
 
 /// One step of the whole loop for one character: sense, think, actuate. Returns what was sensed.
 /// The world is stepped by the caller, once for all characters.
@@ -77,6 +77,15 @@ impl Simulation {
     /// # Errors
     /// Unreadable or invalid characters and repertoires; links, joints or commands that they lack.
     pub fn new(scenario: &Scenario, registry: &Registry) -> Result<Self> {
+        Self::with_cast(scenario, Self::cast(scenario, registry)?)
+    }
+
+    /// The characters that a scenario names and the supervisors of their repertoires, as
+    /// [`Self::with_cast`] takes them.
+    ///
+    /// # Errors
+    /// Unreadable or invalid characters and repertoires.
+    pub fn cast(scenario: &Scenario, registry: &Registry) -> Result<Vec<(Arc<Model>, Supervisor)>> {
         let mut cast = Vec::with_capacity(scenario.characters.len());
         for (i, role) in scenario.characters.iter().enumerate() {
             let of = |field| move |e: Error| e.inside(field).inside(("characters", i));
@@ -86,7 +95,7 @@ impl Simulation {
             let supervisor = supervisor.map_err(|e| scenario.locate(of("repertoire")(e)))?;
             cast.push((model, supervisor));
         }
-        Self::with_cast(scenario, cast)
+        Ok(cast)
     }
 
     /// The same with characters and supervisors that were built elsewhere, one pair a character of the
@@ -159,59 +168,6 @@ impl Simulation {
         Ok(())
     }
 
-    /// Pushes a character's link now: horizontal impulse in N·s over 0.1 s.
-    ///
-    /// # Errors
-    /// An unknown link, or an impulse that is not finite.
-    pub fn push(&mut self, character: usize, link: &str, impulse: f64) -> Result<()> {
-        self.shove(character, link, [impulse, 0.0], PUSH_DURATION)
-    }
-
-    /// Pushes a character's link now, in any direction: impulse in N·s, forward and up, spread over
-    /// a time, s.
-    ///
-    /// # Errors
-    /// An unknown link; an impulse that is not finite; a time that is not from 0 to 60 s.
-    pub fn shove(
-        &mut self,
-        character: usize,
-        link: &str,
-        impulse: [f64; 2],
-        over: f64,
-    ) -> Result<()> {
-        let link = self.model(character).link_index(link)?;
-        if let Some(bad) = impulse.iter().find(|i| !i.is_finite()) {
-            let accepted = "a finite number of N·s";
-            return Err(Error::invalid("push", "impulse", bad, accepted));
-        }
-        if !(0.0..=60.0).contains(&over) {
-            return Err(Error::invalid("push", "over", over, "0 to 60 s"));
-        }
-        self.do_push(character, link, impulse, over);
-        Ok(())
-    }
-
-    /// Gives a character a command now.
-    ///
-    /// # Errors
-    /// A malformed command, or one that nobody answers to, with the nearest name.
-    pub fn command(&mut self, character: usize, text: &str) -> Result<()> {
-        let given = self.actors[character].supervisor.command(text);
-        given.inspect_err(|e| {
-            let kind = EventKind::Command {
-                text: text.to_owned(),
-                accepted: false,
-            };
-            self.note(character, kind);
-            let kind = EventKind::Refused {
-                command: text.to_owned(),
-                controller: None,
-                unmet: Unmet::plain(e.to_string()),
-            };
-            self.note(character, kind);
-        })
-    }
-
     /// Starts recording every step from here on.
     pub fn record(&mut self, scenario: &str, seed: u64) {
         self.record_with(scenario, seed, Vec::new());
@@ -265,7 +221,7 @@ impl Simulation {
         pool.map(|c| c.contract().name.clone()).collect()
     }
 
-    fn model(&self, character: usize) -> &Arc<Model> {
+    pub(super) fn model(&self, character: usize) -> &Arc<Model> {
         self.world.characters()[character].body.model()
     }
 
@@ -374,68 +330,6 @@ impl Simulation {
                 kind,
             });
         }
-    }
-
-    fn do_push(&mut self, character: usize, link: usize, impulse: [f64; 2], over: f64) {
-        let name = self.model(character).links[link].name.clone();
-        self.world.push(character, link, impulse, over);
-        let kind = EventKind::Push {
-            link: name,
-            impulse,
-        };
-        self.note(character, kind);
-    }
-
-    /// A prop appears, unless there are already as many as there may be.
-    fn throw(&mut self, prop: &Prop) {
-        if self.world.props().count() < MOST_ENTRIES {
-            self.world.add_prop(prop);
-            let prop = prop.name.clone();
-            self.note(0, EventKind::Thrown { prop });
-        }
-    }
-
-    /// A spring begins to drag, or the one that does moves on. What is not there is not dragged.
-    fn drag(&mut self, pull: Pull) {
-        let (character, body) = match pull.dragged {
-            Dragged::Link { character, link } => {
-                (character, self.model(character).links[link].name.clone())
-            }
-            Dragged::Prop(place) => match self.world.props().nth(place) {
-                Some(prop) => (0, prop.name.clone()),
-                None => return,
-            },
-        };
-        let before = self.world.pull().map(|p| (p.dragged, p.point));
-        self.world.set_pull(Some(pull));
-        if before != Some((pull.dragged, pull.point)) {
-            self.note(character, EventKind::Dragged { body });
-        }
-    }
-
-    fn release(&mut self) {
-        if self.world.pull().is_some() {
-            self.world.set_pull(None);
-            self.note(0, EventKind::Released);
-        }
-    }
-
-    fn change(&mut self, setting: Changeable, value: f64) {
-        match setting {
-            Changeable::Friction => self.world.set_friction(value),
-            Changeable::Gravity => self.world.set_gravity(value),
-        }
-        let name = setting.name().to_owned();
-        self.note(0, EventKind::Set { name, value });
-    }
-
-    /// Something happened now.
-    fn note(&mut self, character: usize, kind: EventKind) {
-        self.events.push(Event {
-            time: self.world.time(),
-            character,
-            kind,
-        });
     }
 
     /// How a character has ended.

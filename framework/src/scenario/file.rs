@@ -161,6 +161,19 @@ impl Scenario {
         self.origin.locate(error, &self.name)
     }
 
+    /// Puts another character (which then has a repertoire of its own) and another repertoire in the
+    /// place of the first one's; what is left out stays.
+    pub fn recast(&mut self, character: Option<&str>, repertoire: Option<&str>) {
+        let first = &mut self.characters[0];
+        if let Some(character) = character {
+            character.clone_into(&mut first.character);
+            first.repertoire = None;
+        }
+        if let Some(repertoire) = repertoire {
+            first.repertoire = Some(repertoire.to_owned());
+        }
+    }
+
     /// Sets a parameter: one that the scenario declares, or `friction`, `gravity`, `torque`, `mass`
     /// (of [`Settings`]), `duration`.
     ///

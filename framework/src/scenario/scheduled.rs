@@ -5,10 +5,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::character::Point;
+use crate::character::{Model, Point};
+use crate::input::Result;
 use crate::scenario::limits::PUSH_DURATION;
 use crate::scenario::number::Number;
 use crate::scenario::props::PropEntry;
+use crate::world::Dragged;
 
 /// Something done at a time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -93,6 +95,22 @@ pub enum DragTarget {
     Prop(usize),
 }
 
+impl DragTarget {
+    /// Which body of the world it is; `model` is the character's.
+    ///
+    /// # Errors
+    /// A link that the character lacks.
+    pub fn resolved(&self, model: &Model) -> Result<Dragged> {
+        match self {
+            Self::Link { name, character } => Ok(Dragged::Link {
+                character: *character,
+                link: model.link_index(name)?,
+            }),
+            Self::Prop(prop) => Ok(Dragged::Prop(*prop)),
+        }
+    }
+}
+
 /// A setting that can change during a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -138,7 +156,8 @@ impl ScheduledInput {
     }
 
     /// Place of the character that it happens to; the first of what happens to none.
-    pub(crate) fn character(&self) -> usize {
+    #[must_use]
+    pub fn character(&self) -> usize {
         match self {
             Self::Push { character, .. }
             | Self::Command { character, .. }

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
 use aplomb_framework::control::{ControllerFile, Registry, repertoire};
+use aplomb_framework::input::Error;
 
 use crate::live::answer::files;
 use crate::live::scene::LiveScene;
@@ -28,7 +29,7 @@ pub struct Reload {
     folders: Vec<PathBuf>,
     /// Every file with its time and length when it was last looked at.
     seen: BTreeMap<PathBuf, (Option<SystemTime>, u64)>,
-    /// What each controller of the first character said when it was last read.
+    /// What each controller said when it was last read.
     said: BTreeMap<String, String>,
     looked: Instant,
 }
@@ -119,6 +120,7 @@ impl Reload {
 
     /// Reads the scene anew and puts it in the place of the old one.
     fn take(&mut self, session: &mut Session) -> Result<&'static str, String> {
+        let told = |e: Error| e.to_string();
         let new = (self.build)()?;
         let now = said(&new, &self.registry);
         let old = &session.scene;
@@ -130,11 +132,13 @@ impl Reload {
                 .collect()
         };
         let effect = if old.scenario != new.scenario || models(old) != models(&new) {
-            session.replace(new).map_err(|e| e.to_string())?;
+            session.begin(new).map_err(told)?;
             "in use; the run begins anew"
-        } else if self.said == now && self.said.len() == new.cast[0].1.controllers().count() {
+        } else if self.said == now {
             "nothing that is in use has changed"
         } else {
+            // Whether the new pools answer to what the scenario commands.
+            new.begin().map_err(told)?;
             for (character, (_, supervisor)) in new.cast.iter().enumerate() {
                 let same = |name: &str| {
                     let [before, after] = [&self.said, &now].map(|said| said.get(name));

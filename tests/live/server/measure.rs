@@ -51,7 +51,7 @@ fn measure_frames_with_one_five_and_twenty_clients_and_one_who_reads_nothing() {
 #[test]
 #[ignore = "prints figures"]
 fn measure_memory_of_half_an_hour() {
-    let mut session = Session::new(SceneNames::default()).unwrap();
+    let mut session = Session::new(&SceneNames::default()).unwrap();
     let mut view = View::default();
     println!("before: {:.0} MB", memory());
     let begun = Instant::now();

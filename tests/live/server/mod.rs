@@ -34,7 +34,7 @@ impl Served {
         let (address, stop) = (server.address(), Arc::new(AtomicBool::new(false)));
         let raised = Arc::clone(&stop);
         let thread = std::thread::spawn(move || {
-            let session = Session::new(SceneNames::default()).unwrap();
+            let session = Session::new(&SceneNames::default()).unwrap();
             server.serve(session, None, &raised);
         });
         Self {
