@@ -94,50 +94,88 @@ fn the_page_lives_and_a_push_makes_the_character_step() {
     assert_eq!(page.console(), [""; 0]);
 }
 
-#[test]
-#[ignore = "tests/playground.sh builds what it needs"]
-fn what_was_done_has_the_same_digest_as_in_the_program() {
-    let page = page("");
-    let done = page.run(&format!(
+/// Does something in a session of its own and gives what it came to: its digest, its scenario, its film.
+fn done(what: &str) -> Value {
+    page("").run(&format!(
         r#"{WORKER}
-        steps(500);
-        say({{do: "push", link: "torso", impulse: [60, 0]}});
-        steps(1200);
-        say({{do: "throw", shape: "ball", mass: 3, size: 0.1, position: [3, 1], velocity: [-5, 2]}});
-        steps(600);
-        say({{do: "set", name: "friction", value: 0.7}});
-        say({{do: "drag", link: "torso", point: [0, 0.2], to: [0.4, 1.9]}});
-        steps(400);
-        say({{do: "release"}});
-        steps(700);
-        say({{do: "push", link: "torso", impulse: [-150, 10]}});
-        steps(6000);
-        say({{do: "command", text: "bow"}});
-        steps(2600);
+        {what}
         return (async () => ({{
             digest: await digest(), scenario: text(await save("session.ron")),
             gif: text(await save("session.gif")), refused,
         }}))();"#
-    ));
-    let text = |name: &str| done[name].as_str().unwrap();
-    assert!(text("gif").contains("session.csv"), "{}", text("gif"));
+    ))
+}
+
+/// What the program says of a scenario that a session saved.
+fn native(scenario: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("session.ron");
-    std::fs::write(&file, text("scenario")).unwrap();
+    std::fs::write(&file, scenario).unwrap();
     let run = Command::new(env!("CARGO_BIN_EXE_aplomb"))
         .arg("run")
         .arg(&file)
         .arg("--json")
         .output()
         .unwrap();
-    let native: Value = serde_json::from_slice(&run.stdout)
-        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&run.stderr)));
+    serde_json::from_slice(&run.stdout)
+        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&run.stderr)))
+}
+
+#[test]
+#[ignore = "tests/playground.sh builds what it needs"]
+fn what_was_done_has_the_same_digest_as_in_the_program() {
+    let done = done(
+        r#"steps(500);
+        say({do: "push", link: "torso", impulse: [60, 0]});
+        steps(1200);
+        say({do: "throw", shape: "ball", mass: 3, size: 0.1, position: [3, 1], velocity: [-5, 2]});
+        steps(600);
+        say({do: "set", name: "friction", value: 0.7});
+        say({do: "drag", link: "torso", point: [0, 0.2], to: [0.4, 1.9]});
+        steps(400);
+        say({do: "release"});
+        steps(700);
+        say({do: "push", link: "torso", impulse: [-150, 10]});
+        steps(6000);
+        say({do: "command", text: "bow"});
+        steps(2600);"#,
+    );
+    let text = |name: &str| done[name].as_str().unwrap();
+    assert!(text("gif").contains("session.csv"), "{}", text("gif"));
     println!(
-        "digest {} after 12,000 steps; refused: {}",
+        "{} after 12,000 steps; refused: {}",
         text("digest"),
         done["refused"]
     );
-    assert_eq!(done["digest"], native["digest"], "{}", text("scenario"));
+    assert_eq!(
+        done["digest"],
+        native(text("scenario"))["digest"],
+        "{}",
+        text("scenario")
+    );
+}
+
+#[test]
+#[ignore = "tests/playground.sh builds what it needs"]
+fn a_minute_with_twenty_inputs_has_the_same_digest_as_in_the_program() {
+    let done = done(
+        r#"for (let i = 0; i < 20; i++) {
+            say([
+                {do: "push", link: "torso", impulse: [40 + i * 3, 0]},
+                {do: "push", link: "pelvis", impulse: [-60 - i * 5, 5]},
+                {do: "drag", link: "forearm_r", point: [0, -0.2], to: [1, 1.8]},
+                {do: "release"},
+                {do: "throw", shape: "crate", mass: i, size: 0.1, position: [2, 2], velocity: [-4, 1]},
+            ][i % 5]);
+            steps(3000);
+        }"#,
+    );
+    assert_eq!(done["refused"], serde_json::json!([]));
+    let scenario = done["scenario"].as_str().unwrap();
+    let native = native(scenario);
+    println!("{} after a minute", done["digest"]);
+    assert_eq!(native["end"]["time"], 60.0);
+    assert_eq!(done["digest"], native["digest"], "{scenario}");
 }
 
 #[test]
