@@ -21,6 +21,7 @@
     )
 )]
 
+pub mod idle;
 pub mod kinds;
 pub mod momentum;
 pub mod servo;
@@ -49,7 +50,7 @@ pub fn registry() -> Registry {
 }
 
 /// The folders of this crate that are shipped, by name.
-static FILES: [(&str, Dir); 4] = [
+static FILES: [(&str, Dir); 5] = [
     ("clips", include_dir!("$CARGO_MANIFEST_DIR/clips")),
     ("learned", include_dir!("$CARGO_MANIFEST_DIR/learned")),
     (
@@ -57,4 +58,5 @@ static FILES: [(&str, Dir); 4] = [
         include_dir!("$CARGO_MANIFEST_DIR/repertoires"),
     ),
     ("skills", include_dir!("$CARGO_MANIFEST_DIR/skills")),
+    ("stuntman", include_dir!("$CARGO_MANIFEST_DIR/stuntman")),
 ];

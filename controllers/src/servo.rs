@@ -2,18 +2,27 @@
 //!
 //! τ = s (kp (θ_target − θ) − kd θ̇), with the character's nominal kp and kd and scales s.
 //!
-//! Damping acts explicitly, a step late: where the joints of a light link damp it so much that it
-//! would overshoot within a step of 1 ms, they are damped less.
+//! Damping of a character with muscle curves is implicit: as if it acted on the rates at the end of the step, which it changes itself, so that a
+//! light link does not overshoot and chatter however strongly it is damped (stable PD; Tan, Liu and Turk
+//! 2011). With M as of standing upright, that is a constant matrix: τ = −(K_d⁻¹ + Δt W)⁻¹ θ̇, where W is the
+//! joints' block of M⁻¹. Without curves each joint has its own damping, less where the joints of a light link damp
+//! it so much that it would overshoot within a step.
 
-use aplomb_framework::character::Model;
+use aplomb_framework::character::{Dynamics, Model, State};
 use aplomb_framework::math::hypot;
 use aplomb_framework::sensing::Sensors;
+use nalgebra::DMatrix;
+
+/// The step that damping is stable for, s: with one of half of it a rate dies away without changing its sign,
+/// in other poses than upright too.
+const STEP: f64 = 2e-3;
 
 /// Servos of all joints.
 #[derive(Debug, Clone)]
 pub struct Servo {
     kp: Vec<f64>,
-    kd: Vec<f64>,
+    /// Joint × joint, N·m·s/rad.
+    kd: DMatrix<f64>,
 }
 
 impl Servo {
@@ -22,10 +31,12 @@ impl Servo {
     pub fn new(model: &Model, stiffness: f64, damping: f64) -> Self {
         Self {
             kp: model.joints().map(|j| stiffness * j.kp).collect(),
-            kd: stable_damping(model)
-                .into_iter()
-                .map(|kd| damping.min(1.0) * kd)
-                .collect(),
+            kd: damping.min(1.0)
+                * if model.joints().any(|j| j.muscles.have_curves()) {
+                    implicit_damping(model)
+                } else {
+                    explicit_damping(model)
+                },
         }
     }
 
@@ -37,22 +48,23 @@ impl Servo {
 
     /// Torques towards target angles (rad) at rest, N·m; `strength` scales the stiffness.
     pub fn track(&self, now: &Sensors, target: &[f64], strength: f64, torques: &mut [f64]) {
-        let joints = now.state.angles().iter().zip(now.state.rates()).zip(target);
-        let gains = self.kp.iter().zip(&self.kd);
-        for ((((angle, rate), target), (kp, kd)), torque) in joints.zip(gains).zip(torques) {
-            *torque = strength * kp * (target - angle) - strength.sqrt().min(1.0) * kd * rate;
+        let (angles, rates) = (now.state.angles(), now.state.rates());
+        let damping = strength.sqrt().min(1.0);
+        for (j, torque) in torques.iter_mut().enumerate() {
+            // The matrix is symmetric: its columns, which lie together, are its rows.
+            let row = self.kd.column(j);
+            let braking: f64 = row.iter().zip(rates).map(|(kd, rate)| kd * rate).sum();
+            *torque = strength * self.kp[j] * (target[j] - angles[j]) - damping * braking;
         }
     }
 }
 
-/// The step that explicit damping must be stable for, s.
-const STEP: f64 = 1e-3;
-/// Part of a link's inertia over the step that its joints' damping may come to (2 overshoots).
+/// Part of a link's inertia over a step of 1 ms that its joints' explicit damping may come to (2 overshoots).
 const MOST_DAMPING: f64 = 1.5;
 
 /// Nominal damping of each joint, reduced where the sum of it on a link exceeds what the link's
 /// inertia about its nearest joint bears in a step.
-fn stable_damping(model: &Model) -> Vec<f64> {
+fn explicit_damping(model: &Model) -> DMatrix<f64> {
     let mut sums = vec![0.0; model.links.len()];
     let mut levers = vec![f64::INFINITY; model.links.len()];
     for (i, joint) in model.joints().enumerate() {
@@ -69,12 +81,29 @@ fn stable_damping(model: &Model) -> Vec<f64> {
     let scale = |link: usize| {
         let l = &model.links[link];
         let inertia = l.inertia + l.mass * levers[link] * levers[link];
-        (MOST_DAMPING * inertia / (sums[link] * STEP)).min(1.0)
+        (MOST_DAMPING * inertia / (sums[link] * 1e-3)).min(1.0)
     };
     let joints = model.joints().enumerate();
-    joints
-        .map(|(i, j)| j.kd * scale(i + 1).min(scale(j.parent)))
-        .collect()
+    let reduced = joints.map(|(i, j)| j.kd * scale(i + 1).min(scale(j.parent)));
+    DMatrix::from_diagonal(&reduced.collect::<Vec<_>>().into())
+}
+
+/// (K_d⁻¹ + Δt W)⁻¹ of the nominal damping.
+fn implicit_damping(model: &Model) -> DMatrix<f64> {
+    let (dof, joints) = (model.dof(), model.joint_count());
+    let mut dynamics = Dynamics::new(model);
+    dynamics.update(model, &State::standing(model), 0.0);
+    let mass = DMatrix::from_row_slice(dof, dof, &dynamics.mass_matrix);
+    let explicit = DMatrix::from_diagonal(&model.joints().map(|j| j.kd).collect::<Vec<_>>().into());
+    // Masses and inertias are above 0, so that both have an inverse.
+    let Some(mobility) = mass.try_inverse() else {
+        return explicit;
+    };
+    let mut resistance = mobility.view((3, 3), (joints, joints)) * STEP;
+    for (j, joint) in model.joints().enumerate() {
+        resistance[(j, j)] += 1.0 / joint.kd;
+    }
+    resistance.try_inverse().unwrap_or(explicit)
 }
 
 /// Ease in, ease out: 0 at x ≤ 0, 1 at x ≥ 1, with zero slope at both ends.
@@ -114,5 +143,23 @@ mod tests {
             braking > 30.0 && braking < 60.0,
             "the pelvis bears less than the nominal 60"
         );
+    }
+
+    /// A rate that is damped alone dies away from step to step without changing its sign.
+    #[test]
+    fn implicit_damping_never_overshoots() {
+        let model = Model::load("stuntman").unwrap();
+        let damping = implicit_damping(&model);
+        let mut dynamics = Dynamics::new(&model);
+        dynamics.update(&model, &State::standing(&model), 0.0);
+        let mass = DMatrix::from_row_slice(15, 15, &dynamics.mass_matrix);
+        let mobility = mass.try_inverse().unwrap();
+        let step = mobility.view((3, 3), (12, 12)) * damping * 1e-3;
+        for part in step.complex_eigenvalues().iter() {
+            assert!(
+                part.re > 0.0 && part.re < 0.6 && part.im.abs() < 1e-9,
+                "{part}"
+            );
+        }
     }
 }

@@ -68,6 +68,23 @@ pub fn overlay_within(
     Ok(())
 }
 
+/// Puts the right limbs ahead of the left: of each named stem the right joint's angle becomes greater by half
+/// of the value, rad, and the left one's less.
+///
+/// # Errors
+/// A stem that is not two joints', or a value of more than 7 rad either way, by its name.
+pub fn set_apart(model: &Model, named: &NamedAngles, all: &mut [f64]) -> Result<()> {
+    for (stem, value) in named {
+        let of = |e: Error| e.inside(FieldPath::entry(stem));
+        check::within("", *value, -LARGEST_ANGLE..=LARGEST_ANGLE).map_err(of)?;
+        for (side, sign) in [("r", 0.5), ("l", -0.5)] {
+            let joint = model.joint_index(&format!("{stem}_{side}"));
+            all[joint.map_err(|e| e.inside(FieldPath::name(stem)))?] += sign * value;
+        }
+    }
+    Ok(())
+}
+
 /// The pose with every joint's angle taken from the other side.
 #[must_use]
 pub fn mirrored(model: &Model, pose: &[f64]) -> Vec<f64> {

@@ -180,7 +180,8 @@ impl Session {
     fn character(&self, place: usize) -> CharacterFrame {
         let (now, actor) = (self.now.sensors(place), &self.now.actors()[place]);
         let links = now.kinematics.links.iter();
-        let limits = now.model.joints().map(|j| j.torque);
+        let joints = now.model.joints().zip(now.state.rates());
+        let limits = joints.map(|(joint, rate)| joint.muscles.range(*rate));
         CharacterFrame {
             l: links
                 .flat_map(|l| [l.origin[0], l.origin[1], l.angle])
@@ -202,7 +203,7 @@ impl Session {
                 .torques
                 .iter()
                 .zip(limits)
-                .map(|(torque, limit)| shorter(torque.clamp(-limit, limit)))
+                .map(|(torque, [least, greatest])| shorter(torque.clamp(least, greatest)))
                 .collect(),
         }
     }

@@ -85,7 +85,7 @@ struct JointHello {
     name: String,
     link: usize,
     range: Point,
-    torque: f64,
+    torque: [f64; 2],
 }
 
 #[derive(Serialize)]
@@ -167,7 +167,7 @@ impl Session {
                 name: joint.name.clone(),
                 link: i,
                 range: joint.range,
-                torque: joint.torque,
+                torque: joint.muscles.limits(),
             })
         });
         CharacterHello {

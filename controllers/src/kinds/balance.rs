@@ -15,6 +15,7 @@ use aplomb_framework::input::{Result, check};
 use aplomb_framework::sensing::Sensors;
 use serde::{Deserialize, Serialize};
 
+use crate::idle::{Idle, IdleSpec};
 use crate::momentum::{Formulation, GLIDE, Gains, Upright, glided};
 use crate::target::NamedAngles;
 
@@ -35,6 +36,8 @@ pub struct BalanceSpec {
     /// How fast the reference rises from where the centre of mass was found, m/s; at once if left
     /// out. For standing up from a crouch.
     pub climb: Option<f64>,
+    /// What it does while it only stands.
+    pub idle: IdleSpec,
 }
 
 impl Default for BalanceSpec {
@@ -46,6 +49,7 @@ impl Default for BalanceSpec {
             joint_weights: NamedAngles::new(),
             com_ahead: 0.0,
             climb: None,
+            idle: IdleSpec::default(),
         }
     }
 }
@@ -57,6 +61,9 @@ pub struct Balance {
     upright: Upright,
     com_ahead: f64,
     climb: Option<f64>,
+    idle: Idle,
+    /// The pose without what it does while it only stands.
+    pose: Vec<f64>,
 }
 
 impl BalanceSpec {
@@ -83,7 +90,10 @@ impl Spec for BalanceSpec {
     fn build(self, contract: Contract, model: &Arc<Model>) -> Result<Box<dyn Controller>> {
         let upright = self.upright(model)?;
         check::within("climb", self.climb.unwrap_or(1.0), 0.01..=10.0)?;
+        self.idle.check().map_err(|e| e.inside("idle"))?;
         Ok(Box::new(Balance {
+            idle: Idle::new(model, &self.idle),
+            pose: upright.reference.pose.clone(),
             upright,
             com_ahead: self.com_ahead,
             climb: self.climb,
@@ -106,10 +116,12 @@ impl Controller for Balance {
     }
 
     fn act(&mut self, now: &Sensors, torques: &mut [f64]) {
+        let passed = self.upright.passed(now);
+        let pose = &mut self.upright.reference.pose;
+        self.idle.pose(now, passed, &self.pose, pose);
         if let Some(centre) = now.support_centre() {
             // Glides there, so that taking over from another stance is no jerk.
-            let passed = self.upright.passed(now);
-            let goal = centre + self.com_ahead;
+            let goal = centre + self.com_ahead + self.idle.sway(now);
             let [x, y] = self.upright.reference.com;
             let step = GLIDE * passed;
             let top = now.ground + self.upright.height;

@@ -20,7 +20,7 @@ use aplomb_framework::sensing::Sensors;
 use serde::{Deserialize, Serialize};
 
 use crate::servo::{Servo, smoothstep};
-use crate::target::{NamedAngles, overlay};
+use crate::target::{NamedAngles, overlay, set_apart};
 
 /// s after the landing for which the limbs hold before they lower what is still up.
 const HOLDS: f64 = 0.6;
@@ -39,6 +39,9 @@ pub struct Way {
     pub give: NamedAngles,
     /// Pose to lie in.
     pub lie: NamedAngles,
+    /// How far the right limbs are ahead of the left while reaching and giving, by stem, rad.
+    #[serde(default, skip_serializing_if = "NamedAngles::is_empty")]
+    pub apart: NamedAngles,
     /// s that lowering to it takes.
     pub lower: f64,
     /// Stiffness while reaching, relative to the nominal servos.
@@ -115,16 +118,17 @@ impl Way {
         check::within("give_stiffness", self.give_stiffness, 0.0..=3.0)?;
         check::within("ramp", self.ramp, 0.0..=5.0)?;
         check::within("lower", self.lower, 0.0..=10.0)?;
-        let pose = |field: &str, named: &NamedAngles| {
+        let pose = |field: &str, named: &NamedAngles, apart: &NamedAngles| {
             let mut all = vec![0.0; model.joint_count()];
-            let named = overlay(model, named, &mut all);
-            named.map(|()| all).map_err(|e| e.inside(field))
+            overlay(model, named, &mut all).map_err(|e| e.inside(field))?;
+            set_apart(model, apart, &mut all).map_err(|e| e.inside("apart"))?;
+            Ok::<_, Error>(all)
         };
         Ok(Poses {
             pose: [
-                pose("reach", &self.reach)?,
-                pose("give", &self.give)?,
-                pose("lie", &self.lie)?,
+                pose("reach", &self.reach, &self.apart)?,
+                pose("give", &self.give, &self.apart)?,
+                pose("lie", &self.lie, &NamedAngles::new())?,
             ],
             stiffness: [
                 self.reach_stiffness,

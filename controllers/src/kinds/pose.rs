@@ -16,7 +16,7 @@ use aplomb_framework::sensing::{Feature, Sensors};
 use serde::{Deserialize, Serialize};
 
 use crate::servo::{Servo, smoothstep};
-use crate::target::{NamedAngles, joints_named, mirrored, overlay};
+use crate::target::{NamedAngles, joints_named, mirrored, overlay, set_apart};
 
 /// What `next` and `then` call the end of the machine.
 pub const END: &str = "end";
@@ -37,6 +37,9 @@ pub struct PoseState {
     /// Target angles, rad; joints that are not named keep the last state's.
     #[serde(default)]
     pub pose: NamedAngles,
+    /// How far the right limbs are ahead of the left, by stem, rad: half each way from the pose.
+    #[serde(default, skip_serializing_if = "NamedAngles::is_empty")]
+    pub apart: NamedAngles,
     /// s after which the next state begins.
     pub duration: f64,
     /// Part of the duration over which the targets ease in; then they hold.
@@ -172,11 +175,12 @@ impl Spec for PoseSpec {
             let posed = overlay(model, &state.pose, &mut pose);
             posed.map_err(|e| of(e.inside("pose")))?;
             let mut key = self.key(i, state, model).map_err(of)?;
-            key.pose = if self.mirror {
-                mirrored(model, &pose)
-            } else {
-                pose.clone()
-            };
+            key.pose.clone_from(&pose);
+            let apart = set_apart(model, &state.apart, &mut key.pose);
+            apart.map_err(|e| of(e.inside("apart")))?;
+            if self.mirror {
+                key.pose = mirrored(model, &key.pose);
+            }
             keys.push(key);
         }
         let mut feedback = Vec::new();

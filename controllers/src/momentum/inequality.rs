@@ -49,7 +49,7 @@ impl Momentum {
         for (f, foot) in now.feet.iter().enumerate() {
             self.contact_rows(f, foot, dof + 3 * f);
         }
-        self.torque_rows(scale);
+        self.torque_rows(scale, now);
         let without_ranges = self.problem.inequalities.len();
         self.range_rows(now);
         if self.solver.solve(&self.problem) != Solution::Optimal {
@@ -96,23 +96,25 @@ impl Momentum {
         }
     }
 
-    /// |u_x| ≤ what the muscles can do.
-    fn torque_rows(&mut self, scale: [f64; 3]) {
+    /// u_x within what the muscles can do at the joints' rates, in units of what they can at rest.
+    fn torque_rows(&mut self, scale: [f64; 3], now: &Sensors) {
         let dof = self.dynamics.dof();
         for (j, joint) in self.model.joints().enumerate() {
-            let limit = self.gains.strength * joint.torque;
+            let unit = joint.muscles.strongest();
             let i = j + 3;
-            for sign in [1.0, -1.0] {
+            let [least, greatest] = joint.muscles.range(now.state.qdot[i]);
+            for (sign, most) in [(1.0, -least), (-1.0, greatest)] {
+                let most = self.gains.strength * most;
                 let row = self
                     .problem
                     .inequalities
-                    .push_row((-limit + sign * -self.dynamics.bias[i]) / limit);
+                    .push_row((-most + sign * -self.dynamics.bias[i]) / unit);
                 let mass = &self.dynamics.mass_matrix[i * dof..(i + 1) * dof];
                 for (r, m) in row.iter_mut().zip(mass) {
-                    *r = sign * m / limit;
+                    *r = sign * m / unit;
                 }
                 for k in 0..self.wrench.len() {
-                    row[dof + k] = -sign * self.feet[k * dof + i] * scale[k % 3] / limit;
+                    row[dof + k] = -sign * self.feet[k * dof + i] * scale[k % 3] / unit;
                 }
             }
         }

@@ -60,13 +60,11 @@ impl Actor {
 
     /// Notes what the step showed.
     pub(crate) fn observe(&mut self, character: usize, now: &Sensors, events: &mut Vec<Event>) {
-        for ((peak, torque), joint) in self
-            .peak_torque
-            .iter_mut()
-            .zip(&self.torques)
-            .zip(now.model.joints())
-        {
-            *peak = peak.max(torque.abs().min(joint.torque));
+        let joints = now.model.joints().zip(now.state.rates());
+        let peaks = self.peak_torque.iter_mut().zip(&self.torques);
+        for ((peak, torque), (joint, rate)) in peaks.zip(joints) {
+            let [least, greatest] = joint.muscles.range(*rate);
+            *peak = peak.max(torque.clamp(least, greatest).abs());
         }
         let pitch = now.trunk_pitch();
         let [least, greatest] = self.trunk_pitch;

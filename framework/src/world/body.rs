@@ -9,10 +9,14 @@ use std::sync::Arc;
 
 use rapier2d::prelude::*;
 
-use crate::character::{Kinematics, Model, Outline, Point, Shape, Solid, State, turned, wrapped};
+use crate::character::{
+    Joint, Kinematics, Model, Outline, Point, Shape, Solid, State, turned, wrapped,
+};
 use crate::math::{hypot, sin_cos};
 use crate::sensing::{FootContact, LinkContact, Sensors};
+use crate::world::collider::outline;
 use crate::world::contact::{each_point, other};
+use crate::world::flesh::Meetings;
 
 /// A contact within this distance of a knee's hinge is the knee's, m.
 const KNEE: f64 = 0.1;
@@ -47,6 +51,7 @@ pub struct Body {
     joints: Vec<ImpulseJointHandle>,
     /// See [`Model::knee`], one a link.
     knees: Vec<Option<Point>>,
+    meetings: Option<Meetings>,
 }
 
 /// A world vector in the engine's type.
@@ -82,6 +87,7 @@ impl Body {
             colliders: Vec::with_capacity(model.links.len()),
             joints: Vec::with_capacity(model.joint_count()),
             knees: (0..model.links.len()).map(|l| model.knee(l)).collect(),
+            meetings: Meetings::new(model),
         };
         for (link, motion) in model.links.iter().zip(&kinematics.links) {
             let rigid = RigidBodyBuilder::dynamic()
@@ -236,80 +242,57 @@ impl Body {
         state.qdot[2] = w;
         for (i, link) in self.model.links.iter().enumerate() {
             let Some(joint) = &link.joint else { continue };
-            let (child, parent) = (&bodies[self.links[i]], &bodies[self.links[joint.parent]]);
-            let turn = f64::from(child.rotation().angle()) - f64::from(parent.rotation().angle());
-            // The range may reach beyond ±π: take the turn nearest to its middle.
-            let middle = 0.5 * (joint.range[0] + joint.range[1]);
-            state.q[i + 2] = rounded(middle + wrapped(turn - middle));
-            state.qdot[i + 2] = rounded(f64::from(child.angvel()) - f64::from(parent.angvel()));
+            let (turn, rate) = self.turn(i, joint, bodies);
+            state.q[i + 2] = rounded(turn);
+            state.qdot[i + 2] = rounded(rate);
         }
+    }
+
+    /// Angle and rate of a link's joint, rad and rad/s.
+    fn turn(&self, link: usize, joint: &Joint, bodies: &RigidBodySet) -> (f64, f64) {
+        let (child, parent) = (&bodies[self.links[link]], &bodies[self.links[joint.parent]]);
+        let turn = f64::from(child.rotation().angle()) - f64::from(parent.rotation().angle());
+        // The range may reach beyond ±π: take the turn nearest to its middle.
+        let middle = 0.5 * (joint.range[0] + joint.range[1]);
+        let rate = f64::from(child.angvel()) - f64::from(parent.angvel());
+        (middle + wrapped(turn - middle), rate)
+    }
+
+    /// Angle, rate, range and hinge of each joint.
+    pub(super) fn hinges(
+        &self,
+        bodies: &RigidBodySet,
+    ) -> impl Iterator<Item = (f64, f64, [f64; 2], ImpulseJointHandle)> {
+        let joints = self.model.joints().enumerate().zip(&self.joints);
+        joints.map(|((j, joint), handle)| {
+            let (turn, rate) = self.turn(j + 1, joint, bodies);
+            (turn, rate, joint.range, *handle)
+        })
     }
 
     /// Applies joint torques (N·m, model order) for the next step, in place of the last step's,
     /// clamped to the muscles. What is not a number counts as 0. Returns nothing to the root: every
-    /// torque acts on a link and, reversed, on its parent.
+    /// torque acts on a link and, reversed, on its parent. Where trunk and legs overlap they are pressed
+    /// apart. Replaces all forces and torques on the links: add others afterwards.
     pub fn actuate(&self, bodies: &mut RigidBodySet, torques: &[f64]) {
         for handle in &self.links {
             bodies[*handle].reset_torques(false);
         }
+        if let Some(meetings) = &self.meetings {
+            for handle in &self.links {
+                bodies[*handle].reset_forces(false);
+            }
+            meetings.press(&self.links, bodies);
+        }
         for ((i, link), torque) in self.model.links.iter().enumerate().skip(1).zip(torques) {
             let Some(joint) = &link.joint else { continue };
             let torque = if torque.is_nan() { 0.0 } else { *torque };
-            let torque = torque.clamp(-joint.torque, joint.torque) as f32;
+            let (child, parent) = (&bodies[self.links[i]], &bodies[self.links[joint.parent]]);
+            let rate = f64::from(child.angvel()) - f64::from(parent.angvel());
+            let [least, greatest] = joint.muscles.range(rate);
+            let torque = torque.clamp(least, greatest) as f32;
             bodies[self.links[i]].add_torque(torque, false);
             bodies[self.links[joint.parent]].add_torque(-torque, false);
-        }
-    }
-}
-
-/// The collider of a link's or a prop's outline.
-pub(crate) fn outline(shape: &Shape) -> ColliderBuilder {
-    built(&shape.solid())
-}
-
-fn built(solid: &Solid) -> ColliderBuilder {
-    match solid {
-        Solid::Ball { radius, centre } => {
-            ColliderBuilder::ball(*radius as f32).translation(vector(*centre))
-        }
-        Solid::Capsule {
-            radius,
-            ends: [from, to],
-        } => ColliderBuilder::capsule_from_endpoints(vector(*from), vector(*to), *radius as f32),
-        Solid::Cuboid { half, centre } => {
-            let [half_width, half_height] = half.map(|x| x as f32);
-            ColliderBuilder::cuboid(half_width, half_height).translation(vector(*centre))
-        }
-        Solid::Polygon(Outline { corners, radius }) => {
-            let corners: Vec<Vector> = corners.iter().map(|c| vector(*c)).collect();
-            let sharp = *radius <= 0.0;
-            let polygon = if sharp {
-                ColliderBuilder::convex_polyline(corners)
-            } else {
-                ColliderBuilder::round_convex_polyline(corners, *radius as f32)
-            };
-            // Corners that span no area touch nothing.
-            polygon.unwrap_or_else(|| ColliderBuilder::ball(*radius as f32))
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn polygons_reach_as_far_as_their_corners_and_radius() {
-        let corners = vec![[-0.3, 0.0], [0.3, 0.0], [0.0, 0.4]];
-        for radius in [0.0, 0.1] {
-            let corners = corners.clone();
-            let collider = built(&Solid::Polygon(Outline { corners, radius })).build();
-            let bounds = collider.shape().compute_local_aabb();
-            let reach = [bounds.mins.x, bounds.mins.y, bounds.maxs.x, bounds.maxs.y];
-            let expected = [-0.3 - radius, -radius, 0.3 + radius, 0.4 + radius];
-            for (found, expected) in reach.into_iter().zip(expected) {
-                assert!((f64::from(found) - expected).abs() < 1e-6, "{bounds:?}");
-            }
         }
     }
 }

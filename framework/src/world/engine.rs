@@ -271,6 +271,11 @@ impl World {
             self.bodies[push.handle].add_force(push.force, false);
         }
         self.drag();
+        for character in &self.characters {
+            character
+                .body
+                .set_stops(&self.bodies, &mut self.impulse_joints);
+        }
         self.pipeline.step(
             Vector::new(0.0, -self.settings.gravity as f32),
             &self.parameters,

@@ -3,15 +3,18 @@
 //! models, props, torques → [`World`] → sensors.
 
 mod body;
+mod collider;
 mod contact;
 mod drag;
 mod engine;
 mod fastening;
+mod flesh;
 mod grip;
 mod prop;
 mod props;
 mod pull;
 mod settings;
+mod stops;
 
 pub use body::Body;
 pub use engine::{Character, World};

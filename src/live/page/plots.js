@@ -142,8 +142,7 @@ export function makePlots(state, tabs) {
     plots = [];
     stale = false;
     if (!window.uPlot || !state.hello) return;
-    const limit = state.body().joints[jointPlace()]?.torque ?? 1;
-    const reach = 1.08 * limit;
+    const [least, greatest] = state.body().joints[jointPlace()]?.torque ?? [-1, 1];
     const edge = { width: 1, dash: [5, 4] };
     plots = [
       plot(
@@ -161,7 +160,7 @@ export function makePlots(state, tabs) {
       plot(
         "plot-torque",
         [line("torque, N·m", "accent"), line("limit", "bad", edge), line("", "bad", edge)],
-        { y: { range: [-reach, reach] } },
+        { y: { range: [1.08 * least, 1.08 * greatest] } },
       ),
       plot(
         "plot-feature",
@@ -174,10 +173,10 @@ export function makePlots(state, tabs) {
     if (byId("panel-plots").hidden || !state.frame) return;
     if (stale || plots.length === 0) build();
     if (plots.length === 0) return;
-    const limit = state.body().joints[jointPlace()]?.torque ?? 1;
+    const [least, greatest] = state.body().joints[jointPlace()]?.torque ?? [-1, 1];
     const { t } = trace;
     plots[0].setData([t, ...[0, 1, 2, 5, 3, 4].map((k) => trace.of(k))]);
-    plots[1].setData([t, trace.of(TORQUES + jointPlace()), t.map(() => limit), t.map(() => -limit)]);
+    plots[1].setData([t, trace.of(TORQUES + jointPlace()), t.map(() => greatest), t.map(() => least)]);
     plots[2].setData([t, ...watched.split(",").map((_, k) => trace.of(FEATURES + k))]);
   }
 

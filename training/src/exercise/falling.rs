@@ -9,6 +9,7 @@ use aplomb_framework::run::Simulation;
 use aplomb_framework::sensing::Sensors;
 
 use crate::exercise::impact::Impact;
+use crate::exercise::looks::Looks;
 
 /// s from the push within which the character should lie still.
 const LONGEST: f64 = 2.6;
@@ -31,20 +32,27 @@ pub struct Landing {
     pub head_force: f64,
     /// Largest filtered force on trunk and root together, N.
     pub trunk_force: f64,
+    /// Part of the time that left and right moved as one.
+    pub same: f64,
     /// Whether it lay or sat still in time, or had fallen to its controller's satisfaction, or never
     /// came down.
     pub settled: bool,
 }
 
 impl Landing {
-    /// What it is charged: an unprotected landing most, then how hard head and trunk hit, and a
-    /// little for unrest.
+    /// What it is charged: an unprotected landing most and a head that hits, the more the faster, then how
+    /// hard head and trunk hit, and a little for unrest and for sides that move as one.
     #[must_use]
     pub fn cost(&self) -> f64 {
         let unprotected = if self.protected { 0.0 } else { 1.0 };
         let hit = (self.head_force / 2000.0).min(4.0) + (self.trunk_force / 5000.0).min(4.0);
         let unrest = if self.settled { 0.0 } else { 0.2 };
-        unprotected + 0.3 * self.head_speed + hit + unrest
+        let head = if self.head_speed > 0.0 {
+            0.7 + 0.4 * self.head_speed
+        } else {
+            0.0
+        };
+        unprotected + head + hit + unrest + 0.2 * self.same
     }
 }
 
@@ -57,6 +65,7 @@ pub fn land(start: &Simulation, supervisor: &Supervisor, forward: bool) -> Landi
     let begun = run.time();
     let dt = run.world().settings().dt;
     let mut impact = Impact::new(dt);
+    let mut looks = Looks::new(run.sensors(0));
     let mut landing = Landing::default();
     let mut first: Option<bool> = None;
     let (mut head_before, mut quiet) = (0.0, 0.0);
@@ -66,6 +75,7 @@ pub fn land(start: &Simulation, supervisor: &Supervisor, forward: bool) -> Landi
         let now = run.sensors(0);
         let model = &now.model;
         impact.observe(now);
+        looks.observe(now, dt);
         landing.head_force = landing.head_force.max(impact.head);
         landing.trunk_force = landing.trunk_force.max(impact.trunk);
         if now.contacts[model.head].touching && landing.head_speed == 0.0 {
@@ -97,6 +107,7 @@ pub fn land(start: &Simulation, supervisor: &Supervisor, forward: bool) -> Landi
     }
     landing.protected = first.unwrap_or(true);
     landing.settled |= !landing.fell;
+    landing.same = if landing.fell { looks.sameness() } else { 0.0 };
     landing
 }
 

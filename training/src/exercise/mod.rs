@@ -4,6 +4,7 @@
 
 pub mod falling;
 mod impact;
+mod looks;
 mod measure;
 pub mod rising;
 pub mod skill;

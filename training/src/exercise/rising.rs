@@ -4,12 +4,13 @@
 
 use aplomb_framework::control::{Contract, Supervisor};
 use aplomb_framework::events::{EventKind, Reason};
-use aplomb_framework::math::cos;
+use aplomb_framework::math::{cos, hypot};
 use aplomb_framework::run::Simulation;
 use aplomb_framework::sensing::{Posture, Sensors};
 use serde::{Deserialize, Serialize};
 
 use crate::exercise::impact::Impact;
+use crate::exercise::looks::Looks;
 
 /// s for which the character must stand to have risen.
 const STEADY: f64 = 0.3;
@@ -48,19 +49,26 @@ pub struct Rising {
     pub trunk_force: f64,
     /// Mean of the squared joint velocities, (rad/s)².
     pub motion: f64,
+    /// The fastest that the head came to touch anything, m/s.
+    pub knock: f64,
+    /// m by which loaded soles slid.
+    pub slid: f64,
+    /// Part of the time that left and right moved as one.
+    pub same: f64,
 }
 
 impl Rising {
-    /// What it is charged: time, impacts and needless motion, each little, and much for a goal that
-    /// is missed, the more the farther.
+    /// What it is charged: time, impacts, a head that knocks, needless motion, sliding soles and sides that move as one, each
+    /// little, and much for a goal that is missed, the more the farther.
     #[must_use]
     pub fn cost(&self) -> f64 {
         let hurt = self.head_force / 3000.0 + self.trunk_force / 10_000.0;
-        let price = 0.1 * self.time + 0.1 * hurt + 0.002 * self.motion.min(50.0);
+        let looks = 0.3 * self.slid.min(1.0) + 0.15 * self.same + 0.2 * self.knock.min(3.0);
+        let price = 0.1 * self.time + 0.1 * hurt + 0.004 * self.motion.min(50.0) + looks;
         if self.reached {
             price
         } else {
-            2.0 - self.nearest + price.min(0.8)
+            2.0 - self.nearest + price.min(1.5)
         }
     }
 }
@@ -92,8 +100,13 @@ pub fn rise(
         head_force: 0.0,
         trunk_force: 0.0,
         motion: 0.0,
+        knock: 0.0,
+        slid: 0.0,
+        same: 0.0,
     };
-    let mut steps = 0.0;
+    let mut looks = Looks::new(run.sensors(0));
+    let head = run.sensors(0).model.head;
+    let (mut head_speed, mut lies) = (0.0, true);
     let mut seen = run.events().len();
     while run.time() - begun < LONGEST {
         run.step();
@@ -101,8 +114,14 @@ pub fn rise(
         impact.observe(now);
         all.head_force = all.head_force.max(impact.head);
         all.trunk_force = all.trunk_force.max(impact.trunk);
-        all.motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
-        steps += 1.0;
+        looks.observe(now, dt);
+        let touching = now.contacts[head].touching;
+        if touching && !lies {
+            all.knock = all.knock.max(head_speed);
+        }
+        lies = touching;
+        let v = now.kinematics.links[head].com_velocity;
+        head_speed = hypot(v[0], v[1]);
         all.nearest = f64::max(all.nearest, nearness(now, goal));
         let name = run.actors()[0].supervisor.active().unwrap_or_default();
         match goal {
@@ -134,7 +153,9 @@ pub fn rise(
         }
     }
     all.time = run.time() - begun;
-    all.motion /= steps;
+    all.motion = looks.motion();
+    all.slid = looks.slid();
+    all.same = looks.sameness();
     all
 }
 
@@ -152,13 +173,14 @@ fn nearness(now: &Sensors, goal: Goal) -> f64 {
             let height = now.com_height() / now.model.standing_com()[1];
             let head = now.kinematics.links[now.model.head].com[1] - now.ground;
             let head = (head / 1.6).clamp(0.0, 1.0);
-            let off = now.base_of_support.map_or(1.0, |[rear, front]| {
-                let x = now.capture_point;
-                (rear + 0.03 - x).max(x - front + 0.03).max(0.0)
-            });
+            let ([rear, front], x) = (now.soles(), now.capture_point);
+            let off = (rear + 0.03 - x).max(x - front + 0.03).max(0.0);
             let over = (1.0 - off / 0.6).max(0.0);
+            let weight = now.model.total_mass() * now.gravity.max(1.0);
+            let load: f64 = now.feet.iter().map(|f| f.force[1]).sum();
+            let load = (load / weight).min(1.0);
             let on_feet = f64::from(u8::from(now.only_feet_support()));
-            (0.15 * head + over * (0.25 + on_feet * (0.3 + 0.3 * height))).min(1.0)
+            (0.15 * head + over * (0.1 + 0.2 * load + on_feet * (0.25 + 0.3 * height))).min(1.0)
         }
         Goal::Reach { posture, barred } => {
             let aim = match posture {

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use aplomb_framework::character::Model;
+use aplomb_framework::character::{Joint, Model};
 use aplomb_framework::control::Supervisor;
 use aplomb_framework::input::Result;
 use aplomb_framework::math::square;
@@ -90,15 +90,25 @@ pub struct Taken {
     pub lifted: f64,
     /// Mean of the squared joint velocities until then, (rad/s)².
     pub motion: f64,
+    /// The furthest that the trunk leant either way, rad.
+    pub lean: f64,
+    /// The furthest that a shoulder went from where it was, rad.
+    pub raised: f64,
 }
 
 impl Taken {
     /// What it is charged: 1 for a push that is not stood (less the longer it lasted), and a little
-    /// for slow recovery, for a pose that is not regained and for needless motion.
+    /// for slow recovery, for a pose that is not regained, a trunk that bends, arms that rise and for needless
+    /// motion.
     #[must_use]
     pub fn cost(&self) -> f64 {
         if self.stood {
-            0.03 * self.after / 7.0 + 0.002 * self.motion.min(20.0) + 0.3 * self.slouch.min(1.0)
+            let calm =
+                0.3 * (self.lean - 0.2).clamp(0.0, 1.0) + 0.1 * (self.raised - 0.4).clamp(0.0, 2.0);
+            0.2 * self.after / 7.0
+                + 0.002 * self.motion.min(20.0)
+                + 0.3 * self.slouch.min(1.0)
+                + calm
         } else {
             1.0 - 0.3 * (self.after / 7.0).min(1.0)
         }
@@ -115,12 +125,19 @@ pub fn take(model: &Arc<Model>, supervisor: &Supervisor, push: StandingPush) -> 
     let quiet = run.sensors(0).com_velocity[0].abs() < 0.05;
     let (mut motion, mut steps, mut slouch, mut lifted) = (0.0, 0.0, 0.0, 0.0);
     let before: Vec<f64> = run.sensors(0).state.angles().to_vec();
+    let (mut lean, mut raised) = (0.0f64, 0.0f64);
+    let named = |j: &Joint| j.name.starts_with("shoulder");
+    let shoulders: Vec<bool> = model.joints().map(named).collect();
     let first = run.actors()[0].supervisor.active_index();
     while run.time() < push.at + 7.0 {
         run.step();
         let now = run.sensors(0);
         motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
         steps += 1.0;
+        lean = lean.max(now.trunk_pitch().abs());
+        let angles = now.state.angles().iter().zip(&before).zip(&shoulders);
+        let moved = angles.map(|((a, b), shoulder)| if *shoulder { (a - b).abs() } else { 0.0 });
+        raised = moved.fold(raised, f64::max);
         lifted += f64::from(u8::from(!now.feet.iter().all(|f| f.touching())));
         if run.actors()[0].supervisor.active_index() != first {
             break;
@@ -142,6 +159,8 @@ pub fn take(model: &Arc<Model>, supervisor: &Supervisor, push: StandingPush) -> 
     Ok(Taken {
         stood,
         slouch,
+        lean,
+        raised,
         after: run.time() - push.at,
         motion: motion / steps,
         lifted: lifted / steps,

@@ -6,8 +6,14 @@ use aplomb_framework::control::Supervisor;
 use aplomb_framework::math::square;
 use aplomb_framework::run::Simulation;
 
+use crate::exercise::looks::Looks;
+
 /// s after the push within which it is to stand.
 const LONGEST: f64 = 6.0;
+/// rad that nobody minds the trunk to lean.
+const LEANT: f64 = 0.5;
+/// m that nobody sees the soles slide.
+const SLID: f64 = 0.02;
 /// s for which it must stand.
 const STEADY: f64 = 0.3;
 
@@ -22,18 +28,24 @@ pub struct Stepped {
     pub way: f64,
     /// Mean of the trunk's pitch squared, rad².
     pub bent: f64,
+    /// The furthest that the trunk leant either way, rad.
+    pub lean: f64,
     /// Mean of the squared joint velocities, (rad/s)².
     pub motion: f64,
+    /// m by which loaded soles slid.
+    pub slid: f64,
 }
 
 impl Stepped {
-    /// What it is charged: time, way, a bent trunk and needless motion, each little, and much for
-    /// coming down, the more the sooner.
+    /// What it is charged: time, way, a bent trunk, sliding soles and needless motion, each little, and much
+    /// for coming down, the more the sooner.
     #[must_use]
     pub fn cost(&self) -> f64 {
         if self.stood {
             let motion = 0.003 * self.motion.min(100.0);
-            0.06 * self.time + 0.2 * self.way + 0.5 * self.bent.min(1.0) + motion
+            let bent = 0.5 * self.bent.min(1.0) + 0.8 * (self.lean - LEANT).clamp(0.0, 1.0);
+            let slid = 3.0 * (self.slid - SLID).clamp(0.0, 0.5);
+            0.06 * self.time + 0.2 * self.way + bent + motion + slid
         } else {
             3.0 - 0.25 * self.time
         }
@@ -52,15 +64,19 @@ pub fn step(start: &Simulation, supervisor: &Supervisor) -> Stepped {
         time: LONGEST,
         way: 0.0,
         bent: 0.0,
+        lean: 0.0,
         motion: 0.0,
+        slid: 0.0,
     };
+    let mut looks = Looks::new(run.sensors(0));
     let (mut steps, mut steady) = (0.0, 0.0);
     while run.time() - begun < LONGEST {
         run.step();
         let now = run.sensors(0);
         steps += 1.0;
         all.bent += square(now.trunk_pitch());
-        all.motion += now.state.rates().iter().map(|r| r * r).sum::<f64>();
+        all.lean = all.lean.max(now.trunk_pitch().abs());
+        looks.observe(now, dt);
         if now.is_down() {
             break;
         }
@@ -77,6 +93,7 @@ pub fn step(start: &Simulation, supervisor: &Supervisor) -> Stepped {
     all.time = run.time() - begun;
     all.way = (run.sensors(0).com[0] - x).abs();
     all.bent /= steps;
-    all.motion /= steps;
+    all.motion = looks.motion();
+    all.slid = looks.slid();
     all
 }

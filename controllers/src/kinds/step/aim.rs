@@ -11,6 +11,9 @@ use crate::kinds::step::spec::Placement;
 use crate::momentum::{Swing, glided};
 use crate::servo::smoothstep;
 
+/// The furthest that an arm swings either way, rad.
+const ARM: f64 = 0.8;
+
 impl Step {
     /// How a foot is put down in a direction.
     pub(super) fn placement(&self, forward: bool) -> &Placement {
@@ -39,9 +42,12 @@ impl Step {
     /// The swing's reference on the way from where it began to `to`.
     fn swing(&self, now: &Sensors, foot: usize, to: f64, time: f64, lift: f64) -> Swing {
         let s = (now.time - self.since) / time;
-        let eased = smoothstep(s);
-        let rate = if (0.0..1.0).contains(&s) {
-            6.0 * s * (1.0 - s) / time
+        // It leaves the ground before it goes anywhere.
+        let lifting = self.spec.lifting;
+        let along = (s - lifting) / (1.0 - lifting);
+        let eased = smoothstep(along);
+        let rate = if (0.0..1.0).contains(&along) {
+            6.0 * along * (1.0 - along) / ((1.0 - lifting) * time)
         } else {
             0.0
         };
@@ -124,6 +130,16 @@ impl Step {
         reference.com = [x, top.min(reference.com[1] + self.spec.climb * passed)];
         reference.com_velocity[0] = now.com_velocity[0];
         reference.pitch = lean;
+        // Arms swing against the legs; the head may stay upright.
+        let angles = now.state.angles();
+        for limb in &self.arms {
+            let ahead = angles[limb.opposite_hip] - angles[limb.hip];
+            let swing = (0.5 * self.spec.arm_swing * ahead).clamp(-ARM, ARM);
+            reference.pose[limb.shoulder] = limb.hangs + swing;
+        }
+        if let (true, Some(neck)) = (self.spec.gaze, now.model.head.checked_sub(1)) {
+            reference.pose[neck] = (-now.trunk_pitch()).clamp(-ARM, ARM);
+        }
         reference.swing = swing;
     }
 }

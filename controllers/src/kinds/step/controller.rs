@@ -66,6 +66,36 @@ pub struct Step {
     pub(super) over: f64,
     /// Protective swings so far.
     pub(super) swings: u32,
+    pub(super) arms: Vec<Arm>,
+}
+
+/// The joints of an arm that swings with the legs.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Arm {
+    pub(super) shoulder: usize,
+    /// Of the same side, and of the other.
+    pub(super) hip: usize,
+    pub(super) opposite_hip: usize,
+    /// The shoulder's angle in the reference pose, rad.
+    pub(super) hangs: f64,
+}
+
+/// Those whose shoulder and hip have the usual names.
+fn arms(model: &Model, pose: &[f64]) -> Vec<Arm> {
+    let joint = |stem: &str, side: &str| model.joint_index(&format!("{stem}_{side}")).ok();
+    let arm = |[side, other]: [&str; 2]| {
+        let shoulder = joint("shoulder", side)?;
+        Some(Arm {
+            shoulder,
+            hip: joint("hip", side)?,
+            opposite_hip: joint("hip", other)?,
+            hangs: pose[shoulder],
+        })
+    };
+    [["r", "l"], ["l", "r"]]
+        .into_iter()
+        .filter_map(arm)
+        .collect()
 }
 
 impl Spec for StepSpec {
@@ -81,6 +111,7 @@ impl Spec for StepSpec {
         )?;
         self.check(model)?;
         Ok(Box::new(Step {
+            arms: arms(model, &upright.reference.pose),
             upright,
             leg: model.standing_height(),
             phase: Phase::Settle,

@@ -67,6 +67,15 @@ pub struct StepSpec {
     pub bend: f64,
     /// How fast the reference rises from where the centre of mass was found, m/s.
     pub climb: f64,
+    /// rad that each arm swings a rad that its leg is behind the other.
+    #[serde(default)]
+    pub arm_swing: f64,
+    /// Part of a swing in which the foot goes up before it goes anywhere.
+    #[serde(default)]
+    pub lifting: f64,
+    /// Whether the head stays upright however the trunk bends.
+    #[serde(default)]
+    pub gaze: bool,
 }
 
 impl StepSpec {
@@ -89,6 +98,8 @@ impl StepSpec {
             ("glide", self.glide, 0.01, 10.0),
             ("bend", self.bend, 0.0, 2.0),
             ("climb", self.climb, 0.01, 10.0),
+            ("arm_swing", self.arm_swing, 0.0, 2.0),
+            ("lifting", self.lifting, 0.0, 0.5),
         ] {
             check::within(field, value, low..=high)?;
         }

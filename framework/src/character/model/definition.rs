@@ -4,6 +4,9 @@
 
 use std::sync::Arc;
 
+use serde::Deserialize;
+
+use crate::character::muscle::Muscles;
 use crate::character::shape::{Point, Shape};
 use crate::input::{Error, Result};
 
@@ -21,8 +24,8 @@ pub struct Joint {
     pub anchor: Point,
     /// Lowest and highest angle, rad.
     pub range: [f64; 2],
-    /// The largest torque that the muscles exert either way, N·m.
-    pub torque: f64,
+    /// What its muscles can do.
+    pub muscles: Muscles,
     /// Nominal servo stiffness, N·m/rad.
     pub kp: f64,
     /// Nominal servo damping, N·m·s/rad.
@@ -57,6 +60,16 @@ pub struct Foot {
     pub toe: Point,
 }
 
+/// How limbs that meet press each other apart: F = k d (1 + (d/g)⁶) at an overlap d of their outlines.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Flesh {
+    /// k, N/m: of the first touch.
+    pub stiffness: f64,
+    /// g, m: the overlap at which the force is twice that, and beyond which it rises steeply.
+    pub gives: f64,
+}
+
 /// A hand: the point of a link that reaches for things and breaks falls.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hand {
@@ -82,6 +95,8 @@ pub struct Model {
     pub trunk: usize,
     /// The link to be kept off the ground.
     pub head: usize,
+    /// What trunk and head are like where they meet the legs; they pass through each other if there is none.
+    pub flesh: Option<Flesh>,
     /// The character file's text, so that a recording can carry its character.
     pub source: String,
     pub(super) digest: u64,
@@ -103,7 +118,7 @@ impl Model {
             link.mass *= mass;
             link.inertia *= mass;
             if let Some(joint) = &mut link.joint {
-                joint.torque *= torque;
+                joint.muscles = joint.muscles.scaled(torque);
             }
         }
         model.total_mass *= mass;

@@ -1,24 +1,26 @@
 //! A stable hash of a character's numbers, by which what was learned with it knows it again.
 //!
-//! links, feet, hands, trunk, head → 64 bits (XXH3).
+//! model → 64 bits (XXH3).
 
 use xxhash_rust::xxh3::Xxh3;
 
-use crate::character::model::definition::{Foot, Hand, Link};
+use crate::character::model::definition::{Link, Model};
+use crate::character::muscle::Muscles;
 use crate::character::shape::Point;
 
 /// Everything that moves, holds and limits the character: tree, joint names, masses, inertias,
-/// lengths, outlines, ranges, torques, servos, feet and hands. Neither the layout of its file nor
+/// lengths, outlines, ranges, muscles, servos, feet, hands and flesh. Neither the layout of its file nor
 /// its comments, nor the names of its links.
-pub(crate) fn digest(
-    links: &[Link],
-    feet: &[Foot],
-    hands: &[Hand],
-    trunk: usize,
-    head: usize,
-) -> u64 {
+pub(crate) fn digest(model: &Model) -> u64 {
     let mut hash = Hash(Xxh3::new());
-    for count in [links.len(), feet.len(), hands.len(), trunk, head] {
+    let (links, feet, hands) = (&model.links, &model.feet, &model.hands);
+    for count in [
+        links.len(),
+        feet.len(),
+        hands.len(),
+        model.trunk,
+        model.head,
+    ] {
         hash.count(count);
     }
     for link in links {
@@ -31,6 +33,9 @@ pub(crate) fn digest(
     for hand in hands {
         hash.count(hand.link);
         hash.points(&[hand.tip]);
+    }
+    if let Some(flesh) = &model.flesh {
+        hash.numbers(&[flesh.stiffness, flesh.gives]);
     }
     hash.0.digest()
 }
@@ -52,6 +57,17 @@ impl Hash {
         points.iter().for_each(|p| self.numbers(p));
     }
 
+    fn muscles(&mut self, muscles: &Muscles) {
+        let (positive, negative) = (&muscles.positive, &muscles.negative);
+        self.numbers(&[positive.torque]);
+        if (positive.speeds, negative) != (None, positive) {
+            self.numbers(&[negative.torque]);
+            for speeds in [positive.speeds, negative.speeds] {
+                self.numbers(&speeds.unwrap_or([f64::INFINITY; 2]));
+            }
+        }
+    }
+
     fn link(&mut self, link: &Link) {
         self.numbers(&[link.mass, link.inertia]);
         self.points(&[link.com]);
@@ -63,7 +79,8 @@ impl Hash {
             self.0.update(joint.name.as_bytes());
             self.count(joint.parent);
             self.points(&[joint.anchor, joint.range]);
-            self.numbers(&[joint.torque, joint.kp, joint.kd]);
+            self.muscles(&joint.muscles);
+            self.numbers(&[joint.kp, joint.kd]);
         }
     }
 }
@@ -95,6 +112,23 @@ mod tests {
         ] {
             assert!(HUMANOID.contains(from), "{from}");
             assert_ne!(plain, digest(&HUMANOID.replacen(from, to, 1)), "{to}");
+        }
+    }
+
+    #[test]
+    fn curves_and_flesh_belong_to_the_character() {
+        let stuntman = include_str!("../../../characters/stuntman.ron");
+        for (from, to) in [
+            ("torque: 350.0", "torque: 351.0"),
+            ("speeds: (1.578, 3.19)", "speeds: (1.6, 3.19)"),
+            ("stiffness: 3000.0", "stiffness: 3001.0"),
+        ] {
+            assert!(stuntman.contains(from), "{from}");
+            assert_ne!(
+                digest(stuntman),
+                digest(&stuntman.replacen(from, to, 1)),
+                "{to}"
+            );
         }
     }
 

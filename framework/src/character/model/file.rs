@@ -8,8 +8,9 @@ use std::sync::Arc;
 use include_dir::{Dir, include_dir};
 
 use crate::character::kinematics::Kinematics;
-use crate::character::model::definition::{Foot, Hand, Joint, Link, MOST_LINKS, Model};
-use crate::character::model::schema::{CharacterFile, JointEntry, LinkEntry};
+use crate::character::model::definition::{Foot, Hand, Link, MOST_LINKS, Model};
+use crate::character::model::schema::{CharacterFile, LinkEntry};
+use crate::character::model::joint::joint;
 use crate::character::model::{digest, tree};
 use crate::character::shape::{Point, Shape};
 use crate::character::state::State;
@@ -19,7 +20,9 @@ use crate::input::{Error, FieldPath, Result, Source, check, shipped};
 static CHARACTERS: Dir = include_dir!("$CARGO_MANIFEST_DIR/characters");
 
 /// The largest mass, inertia, torque or gain.
-const MOST: f64 = 1e6;
+pub(super) const MOST: f64 = 1e6;
+/// The stiffest flesh, N/m.
+const STIFFEST: f64 = 1e5;
 /// The furthest a point may be from its frame's origin, m.
 const FURTHEST: f64 = 100.0;
 
@@ -71,36 +74,17 @@ impl Model {
         read(source)
     }
 
-    /// Builds the model from its validated parts and derives what depends on them.
-    fn assemble(
-        source: String,
-        name: String,
-        links: Vec<Link>,
-        feet: Vec<Foot>,
-        hands: Vec<Hand>,
-        trunk: usize,
-        head: usize,
-    ) -> Self {
-        let total_mass = links.iter().map(|l| l.mass).sum();
-        let mut model = Self {
-            source,
-            digest: digest::digest(&links, &feet, &hands, trunk, head),
-            name,
-            links,
-            feet,
-            hands,
-            trunk,
-            head,
-            total_mass,
-            standing_height: 0.0,
-            standing_com: [0.0, 0.0],
-        };
-        let mut kinematics = Kinematics::new(&model);
+    /// Fills in what depends on the rest.
+    fn complete(mut self) -> Self {
+        self.digest = digest::digest(&self);
+        self.total_mass = self.links.iter().map(|l| l.mass).sum();
+        let model = &mut self;
+        let mut kinematics = Kinematics::new(model);
         let state = State {
             q: vec![0.0; model.dof()],
             qdot: vec![0.0; model.dof()],
         };
-        kinematics.update(&model, &state);
+        kinematics.update(model, &state);
         let lowest = model
             .feet
             .iter()
@@ -110,7 +94,7 @@ impl Model {
         model.standing_height = -lowest;
         let com = kinematics.com;
         model.standing_com = [com[0], com[1] - lowest];
-        model
+        self
     }
 }
 
@@ -166,15 +150,26 @@ fn model(file: CharacterFile, text: &str) -> Result<Model> {
     for (i, entry) in file.links.iter().enumerate() {
         links.push(link(entry, &names).map_err(|e| e.inside(("links", i)))?);
     }
-    Ok(Model::assemble(
-        text.to_owned(),
-        file.name,
+    if let Some(flesh) = &file.flesh {
+        let of = |e: Error| e.inside("flesh");
+        check::within("stiffness", flesh.stiffness, 0.0..=STIFFEST).map_err(of)?;
+        check::within("gives", flesh.gives, 0.01..=1.0).map_err(of)?;
+    }
+    let model = Model {
+        name: file.name,
         links,
         feet,
         hands,
         trunk,
         head,
-    ))
+        flesh: file.flesh,
+        source: text.to_owned(),
+        digest: 0,
+        total_mass: 0.0,
+        standing_height: 0.0,
+        standing_com: [0.0; 2],
+    };
+    Ok(model.complete())
 }
 
 fn link(entry: &LinkEntry, names: &[&str]) -> Result<Link> {
@@ -198,30 +193,7 @@ fn shape(shape: Shape) -> Result<()> {
     shape.check(length, |field, p| point(field, p))
 }
 
-fn joint(entry: &JointEntry, names: &[&str]) -> Result<Joint> {
-    point("anchor", entry.anchor)?;
-    let [low, high] = entry.range;
-    let full = std::f64::consts::TAU;
-    if !(-full <= low && low < high && high <= full) {
-        let problem = format!("({low}, {high})");
-        let accepted = "(low, high) with low < high, both within ±2π";
-        return Err(Error::refused("range", problem, accepted));
-    }
-    check::above("torque", entry.torque, 0.0, MOST)?;
-    check::above("kp", entry.kp, 0.0, MOST)?;
-    check::above("kd", entry.kd, 0.0, MOST)?;
-    Ok(Joint {
-        name: entry.name.clone(),
-        parent: names.iter().position(|n| *n == entry.parent).unwrap_or(0),
-        anchor: entry.anchor,
-        range: entry.range,
-        torque: entry.torque,
-        kp: entry.kp,
-        kd: entry.kd,
-    })
-}
-
-fn point(field: impl Into<FieldPath>, p: Point) -> Result<()> {
+pub(super) fn point(field: impl Into<FieldPath>, p: Point) -> Result<()> {
     check::point(p, FURTHEST).map_err(|e| e.inside(field))
 }
 
@@ -293,6 +265,45 @@ mod tests {
             "range: (1.0, -1.0)",
         );
         assert!(text.contains(".joint.range is (1, -1)"), "{text}");
+    }
+
+    #[test]
+    fn muscles_and_flesh_are_checked() {
+        const STUNTMAN: &str = include_str!("../../../characters/stuntman.ron");
+        let beside = changed(
+            "torque: 250.0,",
+            "torque: 250.0, muscles: (positive: (torque: 1), negative: (torque: 1)),",
+        );
+        assert!(
+            beside.contains("joint.torque is given beside muscles"),
+            "{beside}"
+        );
+        let missing = changed("torque: 250.0,", "");
+        assert!(
+            missing.contains("joint.torque is missing; accepted: either"),
+            "{missing}"
+        );
+        for (from, to, told) in [
+            (
+                "speeds: (1.578, 3.19)",
+                "speeds: (3.2, 3.19)",
+                "joint.muscles.positive.speeds[1] is 3.19; accepted: above 3.2",
+            ),
+            (
+                "torque: 350.0",
+                "torque: -350.0",
+                "joint.muscles.positive.torque is -350",
+            ),
+            (
+                "gives: 0.03",
+                "gives: 0",
+                "flesh.gives is 0; accepted: 0.01 to 1",
+            ),
+        ] {
+            assert!(STUNTMAN.contains(from), "{from}");
+            let refused = refusal(&STUNTMAN.replacen(from, to, 1));
+            assert!(refused.contains(told), "{refused}");
+        }
     }
 
     #[test]

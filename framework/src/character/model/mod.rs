@@ -5,7 +5,8 @@
 mod definition;
 mod digest;
 mod file;
+mod joint;
 mod schema;
 mod tree;
 
-pub use definition::{Foot, Hand, Joint, Link, MOST_LINKS, Model};
+pub use definition::{Flesh, Foot, Hand, Joint, Link, MOST_LINKS, Model};

@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use crate::character::model::definition::Flesh;
 use crate::character::shape::{Point, Shape};
 
 #[derive(Deserialize)]
@@ -10,6 +11,8 @@ pub(super) struct CharacterFile {
     pub(super) name: String,
     pub(super) trunk: String,
     pub(super) head: String,
+    #[serde(default)]
+    pub(super) flesh: Option<Flesh>,
     #[serde(default)]
     pub(super) hands: Vec<HandEntry>,
     #[serde(default)]
@@ -51,7 +54,26 @@ pub(super) struct JointEntry {
     pub(super) parent: String,
     pub(super) anchor: Point,
     pub(super) range: [f64; 2],
-    pub(super) torque: f64,
+    /// N·m either way and at every speed; or `muscles`.
+    #[serde(default)]
+    pub(super) torque: Option<f64>,
+    #[serde(default)]
+    pub(super) muscles: Option<MusclesEntry>,
     pub(super) kp: f64,
     pub(super) kd: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MusclesEntry {
+    pub(super) positive: MuscleEntry,
+    pub(super) negative: MuscleEntry,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MuscleEntry {
+    pub(super) torque: f64,
+    #[serde(default)]
+    pub(super) speeds: Option<[f64; 2]>,
 }

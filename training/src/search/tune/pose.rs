@@ -19,6 +19,8 @@ impl Tunable for PoseSpec {
                     .map_or([-1.0, 1.0], |j| j.range);
                 all.push(linear(format!("{i}.pose.{joint}"), range[0], range[1]));
             }
+            let apart = state.apart.keys();
+            all.extend(apart.map(|stem| linear(format!("{i}.apart.{stem}"), -0.8, 0.8)));
             all.push(logarithmic(format!("{i}.duration"), 0.08, 1.5));
             all.push(linear(format!("{i}.stiffness"), 0.2, 1.6));
         }
@@ -32,6 +34,7 @@ impl Tunable for PoseSpec {
         };
         let state = &mut self.states[state.parse::<usize>().unwrap_or(0)];
         match rest.split_once('.') {
+            Some(("apart", stem)) => state.apart.entry(stem.to_owned()).or_insert(0.0),
             Some((_, joint)) => state.pose.entry(joint.to_owned()).or_insert(0.0),
             None if rest == "duration" => &mut state.duration,
             None => &mut state.stiffness,
