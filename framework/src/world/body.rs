@@ -9,9 +9,7 @@ use std::sync::Arc;
 
 use rapier2d::prelude::*;
 
-use crate::character::{
-    Joint, Kinematics, Model, Outline, Point, Shape, Solid, State, turned, wrapped,
-};
+use crate::character::{Joint, Kinematics, Model, Point, State, turned, wrapped};
 use crate::math::{hypot, sin_cos};
 use crate::sensing::{FootContact, LinkContact, Sensors};
 use crate::world::collider::outline;

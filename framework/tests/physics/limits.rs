@@ -18,7 +18,7 @@ fn torques_beyond_the_muscles_act_as_their_limit() {
                 } else {
                     -1.0
                 };
-                *torque = sign * factor * joint.torque;
+                *torque = sign * factor * joint.muscles.strongest();
             }
         });
         world.sense(0).clone()

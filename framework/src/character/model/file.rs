@@ -9,8 +9,8 @@ use include_dir::{Dir, include_dir};
 
 use crate::character::kinematics::Kinematics;
 use crate::character::model::definition::{Foot, Hand, Link, MOST_LINKS, Model};
-use crate::character::model::schema::{CharacterFile, LinkEntry};
 use crate::character::model::joint::joint;
+use crate::character::model::schema::{CharacterFile, LinkEntry};
 use crate::character::model::{digest, tree};
 use crate::character::shape::{Point, Shape};
 use crate::character::state::State;
