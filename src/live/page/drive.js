@@ -2,6 +2,7 @@
 
 import { byId, make, say, mark, show } from "./dom.js";
 import { band } from "./look.js";
+import { posture } from "./words.js";
 
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4];
 
@@ -69,7 +70,7 @@ export function makeDrive(state) {
   /** "balance · standing"; with the character's number if there are several. */
   function doing(one, k) {
     const name = state.hello.characters[k].controllers[one.active]?.name ?? "nobody";
-    return `${chips.length > 1 ? `${k + 1}: ` : ""}${name} · ${one.posture.replaceAll("_", " ")}`;
+    return `${chips.length > 1 ? `${k + 1}: ` : ""}${name} · ${posture(one.posture)}`;
   }
 
   state.on("texts", (frame) => {

@@ -4,16 +4,22 @@ import { short } from "./dom.js";
 
 /** `posture standing|crouching` → "posture is standing or crouching"; `x in 0..1` → "x from 0 to 1". */
 export function clause(text) {
-  const posture = text.match(/^posture (\S+)$/);
-  if (posture) return `posture is ${posture[1].split("|").join(" or ")}`;
+  const one = text.match(/^posture (\S+)$/);
+  if (one) return `posture is ${posture(one[1].split("|").join(" or "))}`;
   return text
     .replace(/^\((.*)\)$/s, "$1")
     .replace(/not (\S+) ≥/g, "$1 <")
     .replace(/not (\S+) ≤/g, "$1 >")
-    .replace(/posture ([\w|]+)/g, (_, list) => `posture ${list.split("|").join(" or ")}`)
+    .replace(/posture ([\w|]+)/g, (_, list) => `posture ${posture(list.split("|").join(" or "))}`)
     .replace(/ in (-?[\d.]+)\.\.(-?[\d.]+)/g, " from $1 to $2")
     .replace(/(^|[ (])-(?=[\d.])/g, "$1−");
 }
+
+/** A posture's name in plain words. */
+export const posture = (name) => name.replaceAll("_", " ");
+
+/** Whether a clause is about the posture alone. */
+export const isPosture = (node) => /^(not )?posture \S+$/.test(node.text);
 
 const parts = (node) => node.all ?? node.any ?? (node.not ? [node.not] : []);
 
