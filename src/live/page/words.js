@@ -35,6 +35,9 @@ export function nodesOf(root) {
   return root ? [root, ...parts(root).flatMap(nodesOf)] : [];
 }
 
+/** Name of the feature that a clause, or what it negates, is about. */
+export const featureOf = (node) => node.feature ?? node.not?.feature ?? null;
+
 export const isLeaf = (node) => parts(node).length === 0;
 
 const bounds = (node) => (node.learned ? [0, null] : [node.min ?? null, node.max ?? null]);
@@ -90,6 +93,8 @@ export function eventText(event) {
       ? text
       : `${event.from ? `${event.from} → ` : "→ "}${event.to}${text ? `: ${text}` : ""}`;
   }
+  const refused = event.kind === "refused" && (event.text ?? "").match(/^by (\w+): (.*)$/s);
+  if (refused) return `${refused[1]} refuses: ${clause(refused[2])}`;
   const kind = KINDS[event.kind] ?? event.kind;
   const text = (event.text ?? "").replace(/ -(?=\d)/g, " −");
   return text ? `${kind}: ${text}` : kind;
