@@ -2,6 +2,7 @@
 // until the file is mended or somebody closes them. An error with line and column stays too.
 
 import { byId, make, icon, say, show } from "./dom.js";
+import { eventText } from "./words.js";
 
 const MOST = 3;
 const GOOD_FOR = 5000; // ms
@@ -82,12 +83,10 @@ export function makeTold(state) {
     if (from === 0) return;
     for (const event of events.slice(from)) {
       const text = String(event.text ?? "");
-      const told = [...box.children].some((one) =>
-        one.firstChild.textContent.startsWith(text.split(":")[0]),
-      );
-      if (event.kind !== "refused" || told || `${event.n} ${text}` === lastRefusal) continue;
+      if (event.kind !== "refused" || `${event.n} ${text}` === lastRefusal) continue;
       lastRefusal = `${event.n} ${text}`;
-      note(false, `Refused: ${text}`);
+      const words = eventText(event);
+      note(false, words, words.split(":")[0]);
     }
   });
   return {
