@@ -163,8 +163,7 @@ impl Error {
             Self::Command { text, problem } => {
                 // What the problem says of what is accepted is not said twice.
                 let told = problem.split_once("; accepted: ");
-                let (problem, accepted) =
-                    told.unwrap_or((&problem, "a command: name key=value …"));
+                let (problem, accepted) = told.unwrap_or((&problem, "a command: name key=value …"));
                 Self::refused(outer, format!("'{text}' ({problem})"), accepted)
             }
             Self::Read { path, reason } => {

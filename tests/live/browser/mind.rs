@@ -47,11 +47,18 @@ fn every_contract_of_the_pool_opens_without_a_complaint() {
         let name = name.as_str().unwrap();
         let row = format!("document.querySelector('#mind [data-controller={name}]')");
         page.get(&format!("{row}.click()"));
-        page.until(name, &format!("aplomb.frame.inspect?.controller === {place}"));
+        page.until(
+            name,
+            &format!("aplomb.frame.inspect?.controller === {place}"),
+        );
         // Every sign is filled in, the last sentence too.
         let signs = "[...document.querySelectorAll('#contract .sign')]";
-        page.until(name, &format!("{signs}.every(one => one.textContent !== '·')"));
-        let patience = "document.querySelector('#contract > .sentence:last-of-type')?.textContent ?? ''";
+        page.until(
+            name,
+            &format!("{signs}.every(one => one.textContent !== '·')"),
+        );
+        let patience =
+            "document.querySelector('#contract > .sentence:last-of-type')?.textContent ?? ''";
         page.until(name, &format!("!/ s$/.test({patience})"));
         if name == "rise_prone" {
             let clause = page.text("#contract [data-part=pre][data-holds=false]");

@@ -99,5 +99,8 @@ fn a_long_stretch_is_refused_as_an_animation_and_told_before() {
         "the refusal",
         "/session.gif would last 6.* s; accepted: at most 60 s/.test(document.getElementById('told').textContent)",
     );
-    page.until("no note of work", "!document.querySelector('.told[data-stays=work]')");
+    page.until(
+        "no note of work",
+        "!document.querySelector('.told[data-stays=work]')",
+    );
 }
