@@ -112,6 +112,8 @@ struct DragFrame {
 struct InspectFrame {
     character: usize,
     controller: usize,
+    /// s since it took over; none while another is active.
+    elapsed: Option<f64>,
     probability: f64,
     pre: Vec<(u8, Option<f64>)>,
     post: Vec<(u8, Option<f64>)>,
@@ -210,8 +212,10 @@ impl Session {
 
     fn inspected(&self, character: usize, controller: usize) -> Option<InspectFrame> {
         let now = self.now.sensors(character);
-        let mut pool = self.now.actors().get(character)?.supervisor.controllers();
-        let contract = pool.nth(controller)?.contract();
+        let supervisor = &self.now.actors().get(character)?.supervisor;
+        let contract = supervisor.controllers().nth(controller)?.contract();
+        let active = supervisor.active_index() == Some(controller);
+        let elapsed = supervisor.active_for(now).filter(|_| active);
         let states = |c| {
             let states = clauses::states(c, now);
             let states = states.into_iter();
@@ -220,6 +224,7 @@ impl Session {
         Some(InspectFrame {
             character,
             controller,
+            elapsed: elapsed.map(short),
             probability: short(contract.precondition.probability(now)),
             pre: states(&contract.precondition),
             post: states(&contract.postcondition),

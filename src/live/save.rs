@@ -39,6 +39,13 @@ impl Session {
 }
 
 impl Replay {
+    /// s that a stretch of it lasts, with both of its ends in steps.
+    pub(super) fn duration(&self, [from, to]: [Option<usize>; 2]) -> f64 {
+        let end = |step: Option<usize>| step.map_or(self.end, |s| self.end.min(s as u64));
+        let steps = end(to).saturating_sub(end(Some(from.unwrap_or(0))));
+        steps as f64 * self.scenario.settings.dt
+    }
+
     /// The files that can be saved without drawing.
     pub const FILES: [&str; 3] = ["session.ron", "session.trajectory", "session.csv"];
 

@@ -186,6 +186,12 @@ impl Supervisor {
         self.active.map(|a| a.member)
     }
 
+    /// For how many seconds the active controller has been so; none before the first step.
+    #[must_use]
+    pub fn active_for(&self, now: &Sensors) -> Option<f64> {
+        self.active.map(|a| now.time - a.since)
+    }
+
     fn name(&self, member: usize) -> &str {
         &self.pool[member].controller.contract().name
     }

@@ -128,7 +128,7 @@ impl Error {
     /// let error = Error::unknown("link", "tosro", ["head", "torso"]).inside("link");
     /// assert_eq!(
     ///     error.inside(("events", 1)).to_string(),
-    ///     "events[1].link is 'tosro'; accepted: a link: head, torso (did you mean 'torso'?)",
+    ///     "events[1].link is 'tosro' (did you mean 'torso'?); accepted: a link: head, torso",
     /// );
     /// ```
     #[must_use]
@@ -157,12 +157,14 @@ impl Error {
                     "a"
                 };
                 let (known, nearest) = (listed(&known), suggestion(&nearest));
-                let accepted = format!("{article} {kind}: {known}{nearest}");
-                Self::refused(outer, format!("'{name}'"), accepted)
+                let accepted = format!("{article} {kind}: {known}");
+                Self::refused(outer, format!("'{name}'{nearest}"), accepted)
             }
             Self::Command { text, problem } => {
-                let problem = format!("'{text}' ({problem})");
-                Self::refused(outer, problem, "a command: name key=value …")
+                // What the problem says of what is accepted is not said twice.
+                let told = problem.split_once("; accepted: ");
+                let (problem, accepted) = told.unwrap_or((&problem, "a command: name key=value …"));
+                Self::refused(outer, format!("'{text}' ({problem})"), accepted)
             }
             Self::Read { path, reason } => {
                 let problem = format!("'{}', which cannot be read: {reason}", path.display());
@@ -259,6 +261,23 @@ mod tests {
         assert_eq!(
             text,
             "unknown link 'tosro' (did you mean 'torso'?); known: head, torso"
+        );
+    }
+
+    #[test]
+    fn what_a_command_accepts_is_told_once() {
+        let command = |problem: &str| Error::Command {
+            text: "bow depth=9".into(),
+            problem: problem.into(),
+        };
+        let told = |problem: &str| command(problem).inside("text").to_string();
+        assert_eq!(
+            told("depth is 9; accepted: 0.2 to 1.2"),
+            "text is 'bow depth=9' (depth is 9); accepted: 0.2 to 1.2"
+        );
+        assert_eq!(
+            told("it is wrong"),
+            "text is 'bow depth=9' (it is wrong); accepted: a command: name key=value …"
         );
     }
 

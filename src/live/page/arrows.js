@@ -7,6 +7,11 @@ import { arrow } from "./marks.js";
 /** What a metre of arrow pushes with, N·s. */
 export const IMPULSE_PER_METRE = 120;
 
+// How long the arrow of a drag's force is, px, and px a newton.
+const SHORTEST_FORCE = 34;
+const LONGEST_FORCE = 130;
+const FORCE_PX = 0.12;
+
 /** A label that stays on the stage, beside or above a point so that a finger doesn't cover it. */
 function label(ctx, camera, x, y, text, paint) {
   ctx.font = "600 14px system-ui, sans-serif";
@@ -56,7 +61,17 @@ export function drawSpring(ctx, camera, from, to, force) {
     ctx.arc(px, py, r, 0, 2 * Math.PI);
     ctx.fill();
   }
-  label(ctx, camera, tx, ty, `${Math.round(Math.hypot(...force))} N`, paint);
+  // The force as an arrow of its own, long enough for its direction; its number beside it, not on it.
+  const size = Math.hypot(...force);
+  const [ux, uy] = size >= 1 ? [force[0] / size, -force[1] / size] : [0, 0];
+  const long = Math.min(SHORTEST_FORCE + size * FORCE_PX, LONGEST_FORCE);
+  for (const [tone, width] of [
+    [colour("panel"), 8],
+    [paint, 5],
+  ])
+    arrow(ctx, x, y, ux * long, uy * long, tone, width);
+  const side = ux < 0 ? -1 : 1;
+  label(ctx, camera, tx + side * uy * 62, ty + 30 - side * ux * 40, `${Math.round(size)} N`, paint);
 }
 
 export function drawPush(ctx, camera, from, impulse, link) {

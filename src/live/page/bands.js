@@ -46,6 +46,11 @@ const right = shape([
   [6, 0],
   [-5, 5],
 ]);
+const left = shape([
+  [5, -5],
+  [-6, 0],
+  [5, 5],
+]);
 const down = shape([
   [-6, -4],
   [6, -4],
@@ -85,5 +90,10 @@ const SYMBOLS = {
   branch: { draw: stroke, colour: "soft" },
 };
 
-/** Symbol of a kind of event, or null for one that is seen in the bands alone. */
-export const symbolOf = (kind) => (Object.hasOwn(SYMBOLS, kind) ? SYMBOLS[kind] : null);
+const LEFTWARD = { ...SYMBOLS.push, draw: left };
+
+/** Symbol of an event, or null for one that is seen in the bands alone. A push's points its way. */
+export function symbolOf({ kind, text }) {
+  if (kind === "push" && / [-−]\d/.test(text ?? "")) return LEFTWARD;
+  return Object.hasOwn(SYMBOLS, kind) ? SYMBOLS[kind] : null;
+}

@@ -135,11 +135,34 @@ export function makeCommands(state) {
     choices = [];
   }
 
+  let asked = ""; // what was typed last, until it is clear what became of it
+
   function go() {
+    asked = field.value.trim();
     send(field.value);
     field.value = "";
     close();
   }
+
+  /** What was typed and refused stands in the field again, to be mended, unless something else does. */
+  function giveBack() {
+    if (asked && !field.value) {
+      field.value = asked;
+      field.select();
+    }
+    asked = "";
+  }
+
+  state.on("told", (message) => {
+    const [name] = asked.split(/\s/);
+    if (asked && message.ok !== true && String(message.text).includes(`'${name}`)) giveBack();
+  });
+  state.on("events", (events, from) => {
+    const answer = events.slice(from).findLast((one) => one.kind === "command");
+    if (!asked || !answer || String(answer.text).split(/[\s:]/)[0] !== asked.split(/\s/)[0]) return;
+    if (answer.text.endsWith("not taken up")) giveBack();
+    else asked = "";
+  });
 
   field.addEventListener("input", suggest);
   field.addEventListener("focus", suggest);

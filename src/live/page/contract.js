@@ -2,7 +2,7 @@
 // expects, after how long it gives up. Each clause is green or red as the frame says (`inspect`).
 
 import { byId, make, icon, say, mark, show, place, plain, short } from "./dom.js";
-import { clause, isLeaf, onGauge, slack, turned } from "./words.js";
+import { clause, isLeaf, isPosture, onGauge, posture, slack, turned } from "./words.js";
 
 const PARTS = [
   ["pre", "precondition", "Takes over where", "Takes over from any state."],
@@ -170,8 +170,8 @@ export function makeContract(state, command) {
 
   function update() {
     if (shown === null) return;
-    const found = state.frame?.inspect;
-    const fresh = found && found.controller === shown ? found : null;
+    const told = state.frame?.inspect;
+    const fresh = told && told.controller === shown && told.character === state.character ? told : null;
     for (const [part] of PARTS) {
       const states = fresh?.[part] ?? [];
       lines[part].forEach((line, k) => fillIn(line, states[k] ?? null, fresh));
@@ -180,7 +180,7 @@ export function makeContract(state, command) {
     if (patience)
       say(
         patience.sofar,
-        fresh && fresh.elapsed !== null ? `; ${fresh.elapsed.toFixed(1)} s so far.` : ".",
+        Number.isFinite(fresh?.elapsed) ? `; ${fresh.elapsed.toFixed(1)} s so far.` : ".",
       );
   }
 
@@ -194,17 +194,21 @@ export function makeContract(state, command) {
     if (line.item) mark(line.item, "data-holds", now === null ? "unknown" : now[0] === 1);
     if (!line.value) return;
     const value = now?.[1] ?? null;
-    const chance =
-      line.node.learned && fresh?.probability !== null && fresh?.probability !== undefined
-        ? `, probability ${Math.round(100 * fresh.probability)} %`
-        : "";
-    say(
-      line.value,
-      value === null ? "" : line.node.learned ? `score ${short(value)}${chance}` : short(value),
-    );
+    say(line.value, now === null ? "" : found(line.node, value, fresh));
     const at = onGauge(line.node, value);
     if (at !== null) place(line.dot, "left", at);
     line.dot.hidden = at === null;
+  }
+
+  /** What a clause has found, in words: a value, a score, the posture; nothing of other clauses. */
+  function found(node, value, fresh) {
+    if (isPosture(node)) return `is ${posture(state.now().posture)}`;
+    if (value === null) return node.feature ? "no value" : "";
+    if (!node.learned) return short(value);
+    const chance = Number.isFinite(fresh?.probability)
+      ? `, probability ${Math.round(100 * fresh.probability)} %`
+      : "";
+    return `score ${short(value)}${chance}`;
   }
 
   /** Opens the contract of a controller by its name. */

@@ -2,7 +2,9 @@
 
 import { byId, make, say, mark, show } from "./dom.js";
 import { band } from "./look.js";
+import { posture } from "./words.js";
 
+const MOST_STEPS = 1000; // that the session does at once
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4];
 
 export function makeDrive(state) {
@@ -11,12 +13,22 @@ export function makeDrive(state) {
   for (const factor of SPEEDS) select.append(make("option", { value: factor }, `${factor}×`));
   select.value = "1";
 
+  const second = () => Math.round(1 / state.hello.dt); // steps
+
   const drive = {
     toggle: () => state.send({ do: state.frame?.paused ? "play" : "pause" }),
     pause: () => state.send({ do: "pause" }),
     step: (steps = 1) => state.send({ do: "step", steps }),
-    back() {
-      if (state.frame) state.send({ do: "seek", step: Math.max(state.frame.first, state.frame.n - 1) });
+    back: (steps = 1) => {
+      if (state.frame) drive.seek(Math.max(state.frame.first, state.frame.n - steps));
+    },
+    backSecond: () => drive.back(second()),
+    /** What was run already is shown again; else it is run. */
+    onSecond() {
+      if (!state.frame) return;
+      const { n, end } = state.frame;
+      if (n < end) drive.seek(Math.min(n + second(), end));
+      else drive.step(Math.min(second(), MOST_STEPS));
     },
     seek: (step) => state.send({ do: "seek", step }),
     reset: () => state.send({ do: "reset" }),
@@ -33,7 +45,9 @@ export function makeDrive(state) {
   };
 
   byId("play").addEventListener("click", drive.toggle);
-  byId("back").addEventListener("click", drive.back);
+  byId("back").addEventListener("click", () => drive.back());
+  byId("back-second").addEventListener("click", drive.backSecond);
+  byId("on-second").addEventListener("click", drive.onSecond);
   byId("step").addEventListener("click", () => drive.step());
   byId("reset").addEventListener("click", drive.reset);
   byId("start-here").addEventListener("click", drive.branch);
@@ -42,6 +56,7 @@ export function makeDrive(state) {
   state.on("hello", (hello) => {
     const names = hello.characters.map((one) => one.name).join(" and ");
     say(byId("scene-name"), `${hello.scenario.name} · ${names}`);
+    mark(byId("scene-name"), "title", `${hello.scenario.name} · ${names}`);
     document.title = `${hello.scenario.name} – Aplomb`;
     chips.length = 0;
     byId("now").replaceChildren(
@@ -69,7 +84,7 @@ export function makeDrive(state) {
   /** "balance · standing"; with the character's number if there are several. */
   function doing(one, k) {
     const name = state.hello.characters[k].controllers[one.active]?.name ?? "nobody";
-    return `${chips.length > 1 ? `${k + 1}: ` : ""}${name} · ${one.posture.replaceAll("_", " ")}`;
+    return `${chips.length > 1 ? `${k + 1}: ` : ""}${name} · ${posture(one.posture)}`;
   }
 
   state.on("texts", (frame) => {
@@ -79,7 +94,7 @@ export function makeDrive(state) {
     say(byId("time"), `${frame.t.toFixed(frame.paused ? 3 : 2)} s`);
     say(byId("step-number"), frame.past ? `step ${frame.n} of ${frame.end}` : `step ${frame.n}`);
     byId("start-here").disabled = !frame.past;
-    byId("back").disabled = frame.n <= frame.first;
+    byId("back").disabled = byId("back-second").disabled = frame.n <= frame.first;
     if (document.activeElement !== select) speed(frame.speed);
     show(byId("rate-label"), !frame.paused);
     say(byId("rate"), frame.paused ? "paused" : `${frame.rtf.toFixed(2)}×`);

@@ -18,7 +18,11 @@ export function makeKeys(state, act) {
   const told = () => {
     byId("strength-text").textContent = `${slider.value} N·s`;
   };
-  slider.addEventListener("input", told);
+  // A note of another strength would be wrong now.
+  slider.addEventListener("input", () => {
+    told();
+    act.forget("strength");
+  });
   byId("push-left").addEventListener("click", () => push(-1));
   byId("push-right").addEventListener("click", () => push(1));
 
@@ -43,6 +47,8 @@ export function makeKeys(state, act) {
     ["Space", [" "], "play or pause", act.toggle],
     [".", ["."], "one step on", act.step],
     [",", [","], "one step back", act.back],
+    ["<, >", ["<"], "one second back, one second on", act.backSecond],
+    [null, [">"], "", act.onSecond],
     ["[", ["["], "slower", act.slower],
     ["]", ["]"], "faster", act.faster],
     ["←", ["ArrowLeft"], "push the trunk to the left", () => push(-1)],

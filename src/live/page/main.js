@@ -58,7 +58,9 @@ const theme = makeTheme(() => {
 makeKeys(state, {
   toggle: drive.toggle,
   step: () => drive.step(),
-  back: drive.back,
+  back: () => drive.back(),
+  backSecond: drive.backSecond,
+  onSecond: drive.onSecond,
   slower: () => drive.faster(-1),
   faster: () => drive.faster(1),
   reset: drive.reset,
@@ -76,6 +78,7 @@ makeKeys(state, {
     told.clear();
   },
   note: told.note,
+  forget: told.forget,
 });
 
 connection = connect(state.heard, state.connection);

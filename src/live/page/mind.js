@@ -4,7 +4,7 @@
 
 import { byId, make, say, mark, show, place } from "./dom.js";
 import { band } from "./look.js";
-import { clause, nodesOf, missed, onGauge } from "./words.js";
+import { clause, featureOf, isPosture, missed, nodesOf, onGauge, posture } from "./words.js";
 
 const ON_COMMAND = -1;
 const SPECIAL = { [-1]: "only on command", [-2]: "has just failed", [-3]: "declines" };
@@ -118,17 +118,17 @@ export function makeMind(state, contract) {
     now.bids.forEach((bid, k) => {
       const row = rows[k];
       if (bid[1] === ON_COMMAND && now.active !== k) waiting += 1;
-      const seen = `${bid} ${now.active === k} ${most}`;
+      const seen = `${bid} ${now.active === k} ${most} ${now.posture}`;
       if (seen !== row.seen) {
         row.seen = seen;
-        fillIn(row, bid, now.active === k, most);
+        fillIn(row, bid, now.active === k, most, now.posture);
       }
     });
     if (group) say(group.count, waiting === 1 ? "1 waits for its command" : `${waiting} wait for their command`);
     contract.update(now);
   }
 
-  function fillIn(row, [suitability, node, value], active, most) {
+  function fillIn(row, [suitability, node, value], active, most, pose) {
     const kind = active ? "active" : node === null ? "bids" : node === ON_COMMAND ? "waits" : "refuses";
     mark(row.button, "data-state", kind);
     if (active) mark(row.button, "aria-current", "true");
@@ -140,7 +140,10 @@ export function makeMind(state, contract) {
     show(row.gauge, at !== null);
     show(row.bar, at === null);
     if (at !== null) place(row.dot, "left", at);
-    say(row.miss, refused ? missed(refused, value) : "");
+    const miss = refused ? (isPosture(refused) ? `is ${posture(pose)}` : missed(refused, value)) : "";
+    // The one in control says nothing of what it needs: the feature is named here.
+    const feature = active && miss ? `${isPosture(refused) ? "posture" : (featureOf(refused) ?? "")} ` : "";
+    say(row.miss, `${feature}${miss}`.trim());
     const why = active
       ? "in control"
       : refused
@@ -149,7 +152,7 @@ export function makeMind(state, contract) {
           ? "bids"
           : (SPECIAL[node] ?? "refuses");
     say(row.why, why);
-    mark(row.button, "title", refused ? `${why}; ${missed(refused, value) || "it does not hold"}` : why);
+    mark(row.button, "title", refused ? `${why}; ${feature}${miss || "it does not hold"}` : why);
   }
 
   /** Colours of the dots; anew after a change of theme. */

@@ -2,7 +2,7 @@
 // throw are drawn as arrows. Pointer events → messages, and a drawing on top of the stage.
 // Two fingers, shift and the wheel belong to gestures.js.
 
-import { byId, mark, seldom, show } from "./dom.js";
+import { byId, mark, say, seldom, show } from "./dom.js";
 import { bodyAt, pointOf } from "./hit.js";
 import { IMPULSE_PER_METRE, drawSpring, drawPush, drawThrow } from "./arrows.js";
 
@@ -11,6 +11,13 @@ const SECOND_FINGER = 90; // ms that a touch waits for a second finger before it
 const SMALLEST_PUSH = 1; // N·s
 const MOST_PUSH = 1000; // N·s
 const MOST_SPEED = 50; // m/s each way
+const HINTS = {
+  drag: "Press on a limb or a thing and pull: it follows by a spring.",
+  push: "Press on a limb and draw an arrow: longer is harder.",
+  ball: "Press anywhere and draw an arrow: longer flies faster.",
+  crate: "Press in the air to drop one; draw an arrow to throw it.",
+  pan: "Press anywhere and pull to move the view.",
+};
 const SIZES = { ball: "0.12", crate: "0.2" };
 
 export function makePointer(state, stage, camera) {
@@ -37,8 +44,8 @@ export function makePointer(state, stage, camera) {
     show(byId("tool-options"), throws || tool === "push");
     show(byId("throw-options"), throws);
     show(byId("push-options"), tool === "push");
-    const options = byId("tool-options");
-    camera.cover(options.hidden ? 0 : options.offsetTop + options.offsetHeight + 8);
+    say(byId("tool-hint"), HINTS[tool]);
+    cover();
     if (throws) {
       byId("throw-size").value = SIZES[tool];
       byId("throw-size-name").textContent = tool === "ball" ? "radius, m" : "half side, m";
@@ -46,6 +53,16 @@ export function makePointer(state, stage, camera) {
     canvas.style.cursor = tool === "pan" ? "grab" : tool === "drag" ? "default" : "crosshair";
     light(null);
   }
+
+  /** What the options and the hint cover is no place for a head. */
+  function cover() {
+    const high = byId("stage").clientHeight;
+    const below = [byId("tool-options"), byId("tool-hint")]
+      .filter((one) => one.offsetHeight > 0 && one.offsetTop < high / 2)
+      .map((one) => one.offsetTop + one.offsetHeight);
+    camera.cover(Math.max(0, ...below) + 14);
+  }
+  new ResizeObserver(cover).observe(canvas);
 
   function light(found) {
     const old = stage.lit;

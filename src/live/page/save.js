@@ -1,8 +1,10 @@
 // What can be taken away: recording, table, scenario, picture, animation. The server answers
 // /save/NAME; a worker answers the message `save` with `saved`.
 
-import { byId, make, show } from "./dom.js";
+import { byId, make, mark, say, show } from "./dom.js";
 
+// The server draws no longer animation.
+const LONGEST_FILM = 60; // s
 const PATIENCE = 120000; // ms for a worker's answer: it does the whole run again
 
 // id, name of the save (null: made here), label, whether it needs the server
@@ -53,12 +55,17 @@ export function makeSave(state, stage, timeline, connection, told) {
     setTimeout(() => URL.revokeObjectURL(address), 10000);
   }
 
+  /** What is drawn for long says so, and for how long already, until it is done or refused. */
   async function save(name, stretch) {
+    const begun = performance.now();
+    const seconds = () => Math.round((performance.now() - begun) / 1000);
+    const done = stretch ? told.lasting(() => `Drawing ${name} … ${seconds()} s`, name) : () => {};
     try {
-      if (stretch) told.note(true, `Drawing ${name} …`, name);
       hand(name, new Blob([await bytes(name, stretch ? timeline.visible() : null)]));
+      done();
       if (stretch) told.note(true, `${name} is ready.`, name);
     } catch (error) {
+      done();
       told.note(false, error.message, name);
     }
   }
@@ -105,11 +112,14 @@ export function makeSave(state, stage, timeline, connection, told) {
   });
   state.on("texts", () => {
     if (byId("panel-save").hidden) return;
-    const [from, to] = timeline.visible().map((step) => (step * state.hello.dt).toFixed(2));
+    const [from, to] = timeline.visible().map((step) => step * state.hello.dt);
+    const long = to - from > LONGEST_FILM ? `; these are ${(to - from).toFixed(0)} s` : "";
     const text = state.hello.native
-      ? `From ${from} s to ${to} s. Zoom the timeline, with the wheel or two fingers, to choose.`
+      ? `From ${from.toFixed(2)} s to ${to.toFixed(2)} s. Zoom the timeline, with the wheel or two fingers, ` +
+        `to choose. Animation and film: at most ${LONGEST_FILM} s${long}.`
       : "The film shows the stage from when you start it until you stop it.";
-    if (byId("save-stretch").textContent !== text) byId("save-stretch").textContent = text;
+    say(byId("save-stretch"), text);
+    mark(byId("save-stretch"), "data-long", state.hello.native && long !== "");
   });
 
   return { bytes };

@@ -1,5 +1,6 @@
 // The timeline: the active controllers as coloured bands, what happened as marks above them. Click or
-// drag seeks, the wheel or two fingers zoom, a double click shows all again. Events + frame → canvas, `seek`.
+// drag seeks, the wheel or two fingers zoom; then buttons show all again or follow the newest step.
+// Events + frame → canvas, `seek`.
 
 import { byId, mark, seldom, show } from "./dom.js";
 import { colour, band, clear } from "./look.js";
@@ -47,7 +48,6 @@ export function makeTimeline(state) {
     held = null;
     const more = hello.characters.length - 1;
     canvas.style.height = more > 0 ? `${HIGH + EACH * more}px` : "";
-    tip.style.bottom = more > 0 ? `${HIGH + EACH * more + 4}px` : "";
   });
   state.on("events", (events) => {
     bands = bandsOf(state.hello, events);
@@ -76,6 +76,20 @@ export function makeTimeline(state) {
     });
     for (const event of state.events) happening(event);
     head();
+    show(byId("timeline-whole"), !span.isAll());
+    show(byId("timeline-now"), !span.isAll());
+    mark(byId("timeline-now"), "aria-pressed", span.follows());
+    if (hover !== null) hint();
+  }
+
+  byId("timeline-whole").addEventListener("click", whole);
+  byId("timeline-now").addEventListener("click", () => {
+    span.follow();
+    draw();
+  });
+  function whole() {
+    span.all();
+    draw();
   }
 
   function bar({ from, to, name, place }, top, high) {
@@ -97,7 +111,7 @@ export function makeTimeline(state) {
   }
 
   function happening(event) {
-    const symbol = symbolOf(event.kind);
+    const symbol = symbolOf(event);
     const x = toX(event.n);
     if (!symbol || x < -8 || x > size[0] + 8) return;
     ctx.fillStyle = ctx.strokeStyle = colour(symbol.colour);
@@ -152,7 +166,7 @@ export function makeTimeline(state) {
     let near = null;
     for (const event of state.events) {
       const gap = Math.abs(toX(event.n) - x);
-      if (gap > 9 || (event.kind !== "switch" && !symbolOf(event.kind))) continue;
+      if (gap > 9 || (event.kind !== "switch" && !symbolOf(event))) continue;
       if (!near || gap < near.gap || (gap === near.gap && event.kind !== "switch")) near = { gap, event };
     }
     const step = toStep(x);
@@ -168,6 +182,8 @@ export function makeTimeline(state) {
     show(tip, text !== null);
     if (text === null) return;
     tip.textContent = text;
+    // On the stage, above what can be clicked.
+    tip.style.bottom = `${canvas.getBoundingClientRect().bottom - byId("drive").getBoundingClientRect().top + 8}px`;
     const wide = tip.offsetWidth;
     tip.style.left = `${Math.min(Math.max(hover - wide / 2, 0), Math.max(size[0] - wide, 0))}px`;
   }
@@ -218,10 +234,7 @@ export function makeTimeline(state) {
     hover = null;
     hint();
   });
-  canvas.addEventListener("dblclick", () => {
-    span.all();
-    draw();
-  });
+  canvas.addEventListener("dblclick", whole);
   canvas.addEventListener(
     "wheel",
     (event) => {

@@ -1,7 +1,8 @@
 // What the session tells the person: answers over the stage, and errors of watched files, which stay
 // until the file is mended or somebody closes them. An error with line and column stays too.
 
-import { byId, make, icon, show } from "./dom.js";
+import { byId, make, icon, say, show } from "./dom.js";
+import { eventText } from "./words.js";
 
 const MOST = 3;
 const GOOD_FOR = 5000; // ms
@@ -12,28 +13,50 @@ export function makeTold(state) {
   const files = byId("files");
   let lastRefusal = "";
 
-  /** `key`: a later note with the same one replaces it. */
-  function note(ok, text, key = text) {
-    const place = /:\d+:\d+/.test(text);
+  function put(ok, text, key, stays) {
+    const words = make("span", {}, text);
     const item = make(
       "div",
-      { class: "told", data: { ok, key, lasting: !ok && place } },
-      make("span", {}, text),
+      { class: "told", data: { ok, key, stays } },
+      words,
       make(
         "button",
         { class: "icon plain", "aria-label": "Close", onclick: () => item.remove() },
         icon("close"),
       ),
     );
-    for (const old of [...box.children]) if (old.dataset.key === key) old.remove();
+    forget(key);
     box.append(item);
+    const passing = [...box.children].filter((one) => one.dataset.stays !== "work");
+    for (const old of passing.slice(0, Math.max(0, passing.length - MOST))) old.remove();
+    return { item, words };
+  }
+
+  /** Takes away the note with this key. */
+  function forget(key) {
+    for (const old of [...box.children]) if (old.dataset.key === key) old.remove();
+  }
+
+  /** `key`: a later note with the same one replaces it. */
+  function note(ok, text, key = text) {
+    const place = /:\d+:\d+/.test(text);
+    const { item } = put(ok, text, key, !ok && place ? "mistake" : "");
     if (ok || !place) setTimeout(() => item.remove(), ok ? GOOD_FOR : BAD_FOR);
-    while (box.children.length > MOST) box.firstChild.remove();
+  }
+
+  /** A note on work that takes its time, told anew each second; it stays until what this returns is called. */
+  function lasting(text, key) {
+    const { item, words } = put(true, text(), key, "work");
+    const timer = setInterval(() => say(words, text()), 1000);
+    return () => {
+      clearInterval(timer);
+      item.remove();
+    };
   }
 
   /** What was wrong in a file is mended once a file has been read well. */
   function mended() {
-    for (const item of [...box.children]) if (item.dataset.lasting === "true") item.remove();
+    for (const item of [...box.children]) if (item.dataset.stays === "mistake") item.remove();
   }
 
   state.on("told", (message) => {
@@ -60,13 +83,18 @@ export function makeTold(state) {
     if (from === 0) return;
     for (const event of events.slice(from)) {
       const text = String(event.text ?? "");
-      const told = [...box.children].some((one) =>
-        one.firstChild.textContent.startsWith(text.split(":")[0]),
-      );
-      if (event.kind !== "refused" || told || `${event.n} ${text}` === lastRefusal) continue;
+      if (event.kind !== "refused" || `${event.n} ${text}` === lastRefusal) continue;
       lastRefusal = `${event.n} ${text}`;
-      note(false, `Refused: ${text}`);
+      const words = eventText(event);
+      note(false, words, words.split(":")[0]);
     }
   });
-  return { note, clear: () => box.replaceChildren() };
+  return {
+    note,
+    lasting,
+    forget,
+    clear() {
+      for (const item of [...box.children]) if (item.dataset.stays !== "work") item.remove();
+    },
+  };
 }

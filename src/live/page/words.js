@@ -4,16 +4,22 @@ import { short } from "./dom.js";
 
 /** `posture standing|crouching` → "posture is standing or crouching"; `x in 0..1` → "x from 0 to 1". */
 export function clause(text) {
-  const posture = text.match(/^posture (\S+)$/);
-  if (posture) return `posture is ${posture[1].split("|").join(" or ")}`;
+  const one = text.match(/^posture (\S+)$/);
+  if (one) return `posture is ${posture(one[1].split("|").join(" or "))}`;
   return text
     .replace(/^\((.*)\)$/s, "$1")
     .replace(/not (\S+) ≥/g, "$1 <")
     .replace(/not (\S+) ≤/g, "$1 >")
-    .replace(/posture ([\w|]+)/g, (_, list) => `posture ${list.split("|").join(" or ")}`)
+    .replace(/posture ([\w|]+)/g, (_, list) => `posture ${posture(list.split("|").join(" or "))}`)
     .replace(/ in (-?[\d.]+)\.\.(-?[\d.]+)/g, " from $1 to $2")
     .replace(/(^|[ (])-(?=[\d.])/g, "$1−");
 }
+
+/** A posture's name in plain words. */
+export const posture = (name) => name.replaceAll("_", " ");
+
+/** Whether a clause is about the posture alone. */
+export const isPosture = (node) => /^(not )?posture \S+$/.test(node.text);
 
 const parts = (node) => node.all ?? node.any ?? (node.not ? [node.not] : []);
 
@@ -28,6 +34,9 @@ export function turned(node) {
 export function nodesOf(root) {
   return root ? [root, ...parts(root).flatMap(nodesOf)] : [];
 }
+
+/** Name of the feature that a clause, or what it negates, is about. */
+export const featureOf = (node) => node.feature ?? node.not?.feature ?? null;
 
 export const isLeaf = (node) => parts(node).length === 0;
 
@@ -84,6 +93,8 @@ export function eventText(event) {
       ? text
       : `${event.from ? `${event.from} → ` : "→ "}${event.to}${text ? `: ${text}` : ""}`;
   }
+  const refused = event.kind === "refused" && (event.text ?? "").match(/^by (\w+): (.*)$/s);
+  if (refused) return `${refused[1]} refuses: ${clause(refused[2])}`;
   const kind = KINDS[event.kind] ?? event.kind;
   const text = (event.text ?? "").replace(/ -(?=\d)/g, " −");
   return text ? `${kind}: ${text}` : kind;

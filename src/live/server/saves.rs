@@ -18,6 +18,9 @@ const MOST: usize = 2;
 /// How long the session may take to hand over what was done.
 const PATIENCE: Duration = Duration::from_secs(10);
 
+/// The longest animation, s: one takes longer to draw than it lasts, and others wait for their turn.
+const LONGEST_FILM: f64 = 60.0;
+
 /// Which steps, as the query says: `from=10&to=500`.
 fn stretch(query: &str) -> [Option<usize>; 2] {
     ["from=", "to="].map(|key| {
@@ -81,6 +84,13 @@ fn file(replay: Replay, extension: &str, steps: [Option<usize>; 2]) -> Result<Ve
             .scenario()
             .map(String::into_bytes)
             .map_err(|e| e.to_string());
+    }
+    let seconds = replay.duration(steps);
+    if matches!(extension, "gif" | "mp4") && seconds > LONGEST_FILM {
+        return Err(format!(
+            "session.{extension} would last {seconds:.1} s; accepted: at most {LONGEST_FILM} s: \
+             zoom the timeline to choose them"
+        ));
     }
     let whole = replay.recording().map_err(|e| e.to_string())?;
     let [from, to] = steps;

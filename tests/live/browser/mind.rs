@@ -32,6 +32,45 @@ fn clauses_of_a_contract_are_green_or_red() {
 }
 
 #[test]
+fn every_contract_of_the_pool_opens_without_a_complaint() {
+    let Some((_program, page)) = standing() else {
+        return;
+    };
+    page.until(
+        "the rows",
+        "document.querySelector('#mind [data-controller]')",
+    );
+    let names = page.get("aplomb.hello.characters[0].controllers.map(one => one.name)");
+    let names = names.as_array().unwrap();
+    assert!(names.len() > 15, "{names:?}");
+    for (place, name) in names.iter().enumerate() {
+        let name = name.as_str().unwrap();
+        let row = format!("document.querySelector('#mind [data-controller={name}]')");
+        page.get(&format!("{row}.click()"));
+        page.until(
+            name,
+            &format!("aplomb.frame.inspect?.controller === {place}"),
+        );
+        // Every sign is filled in, the last sentence too.
+        let signs = "[...document.querySelectorAll('#contract .sign')]";
+        page.until(
+            name,
+            &format!("{signs}.every(one => one.textContent !== '·')"),
+        );
+        let patience =
+            "document.querySelector('#contract > .sentence:last-of-type')?.textContent ?? ''";
+        page.until(name, &format!("!/ s$/.test({patience})"));
+        if name == "rise_prone" {
+            let clause = page.text("#contract [data-part=pre][data-holds=false]");
+            assert_eq!(clause, "✗posture is proneis standing");
+        }
+    }
+    let row = "document.querySelector('#mind [data-controller=balance]')";
+    page.get(&format!("{row}.click()"));
+    assert_eq!(page.console(), Vec::<String>::new());
+}
+
+#[test]
 fn it_explains_the_last_switch() {
     let Some((_program, page)) = standing() else {
         return;

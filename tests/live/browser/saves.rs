@@ -76,3 +76,31 @@ fn a_stretch_is_served_as_an_animation_and_a_link_opens_the_same() {
         &format!("Math.abs(aplomb.hello.scenario.duration - {end} * 0.001) < 1e-6"),
     );
 }
+
+#[test]
+fn a_long_stretch_is_refused_as_an_animation_and_told_before() {
+    let Some((_program, page)) = standing() else {
+        return;
+    };
+    page.click("#tab-save");
+    page.until(
+        "the bound",
+        "document.getElementById('save-stretch').textContent.includes('at most 60 s')",
+    );
+    let steps = "for (let k = 0; k < 62; k++) aplomb.state.send({do: 'step', steps: 1000})";
+    page.get(&format!("(() => {{ {steps} }})()"));
+    page.until("a minute", "aplomb.frame.end > 61000");
+    page.until(
+        "that it is too long",
+        "document.getElementById('save-stretch').dataset.long === 'true'",
+    );
+    page.click("#save-gif");
+    page.until(
+        "the refusal",
+        "/session.gif would last 6.* s; accepted: at most 60 s/.test(document.getElementById('told').textContent)",
+    );
+    page.until(
+        "no note of work",
+        "!document.querySelector('.told[data-stays=work]')",
+    );
+}

@@ -77,9 +77,46 @@ fn a_refused_command_tells_its_clause_and_the_value() {
         "clause and value",
         "/stand_up.*com_height ≤ 0.95 \\(is \\d/.test(document.getElementById('told').textContent)",
     );
+    let field = "document.getElementById('command').value";
+    page.until("what is to be mended", &format!("{field} === 'stand_up'"));
+    page.type_in("#command", "bwo");
+    page.until(
+        "the nearest name before the others",
+        "/'bwo' \\(did you mean 'bow'\\?\\); accepted/.test(document.getElementById('told').textContent)",
+    );
     page.type_in("#command", "dance");
     page.until(
         "what is accepted",
         "/dance.*bow/s.test(document.getElementById('told').textContent)",
     );
+}
+
+#[test]
+fn seconds_go_by_and_the_timeline_follows_or_shows_all() {
+    let Some((_program, page)) = standing() else {
+        return;
+    };
+    page.click("#play");
+    page.until("a pause", "aplomb.frame.paused");
+    let begun = page.number("aplomb.frame.n");
+    page.click("#on-second");
+    page.until("a second on", &format!("aplomb.frame.n === {begun} + 1000"));
+    page.key('<');
+    page.until("a second back", &format!("aplomb.frame.n === {begun}"));
+    let shown = "!document.getElementById('timeline-now').hidden";
+    assert_eq!(page.get(shown), false);
+    page.get(
+        "document.getElementById('timeline').dispatchEvent(new WheelEvent('wheel', \
+         {deltaY: -2000, clientX: aplomb.timelineX(0), cancelable: true}))",
+    );
+    page.until("a way back", shown);
+    page.click("#timeline-now");
+    page.click("#play");
+    let edge = "document.getElementById('timeline').getBoundingClientRect().right";
+    page.until(
+        "the newest step in sight",
+        &format!("aplomb.frame.n > {begun} + 2500 && aplomb.timelineX(aplomb.frame.end) < {edge}"),
+    );
+    page.click("#timeline-whole");
+    page.until("the whole run", &format!("!({shown})"));
 }
