@@ -27,7 +27,7 @@ fn both_sides_of_a_character_are_alike() {
             let other = &model.links[model.mirrored_joint(j) + 1];
             let (own, twin) = (&model.links[j + 1], other.joint.as_ref().unwrap());
             assert_eq!((own.mass, own.inertia), (other.mass, other.inertia));
-            assert_eq!((joint.range, joint.torque), (twin.range, twin.torque));
+            assert_eq!((joint.range, joint.muscles), (twin.range, twin.muscles));
         }
     }
 }

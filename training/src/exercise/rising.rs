@@ -238,7 +238,8 @@ mod tests {
     #[test]
     fn standing_costs_little_and_staying_down_much() {
         let bow = shipped("humanoid", "bow", 0.0);
-        assert!(bow.reached && bow.cost() < 0.1, "{bow:?}");
+        // 0.15 of it for arms and legs that move as one.
+        assert!(bow.reached && bow.cost() < 0.25, "{bow:?}");
         assert!((bow.time - STEADY).abs() < 0.01, "{bow:?}");
         let rest = shipped("limp", "rest", std::f64::consts::FRAC_PI_2);
         assert!(!rest.reached && rest.nearest < 0.5, "{rest:?}");

@@ -171,6 +171,9 @@ impl Step {
                 }
             }
             Phase::Catch { over } => {
+                if self.swings == 0 && elapsed < self.spec.reaction {
+                    return;
+                }
                 if strayed {
                     self.begin_swing(now);
                     return;
@@ -231,7 +234,8 @@ impl Controller for Step {
         self.over = now.com[0];
         self.swings = 0;
         let support = now.base_of_support;
-        if support.is_none_or(|support| beyond(now.capture_point, support, 0.0)) {
+        let leaves = support.is_none_or(|support| beyond(now.capture_point, support, 0.0));
+        if leaves && self.spec.reaction <= 0.0 {
             self.begin_swing(now);
         } else {
             self.begin(now, Phase::Catch { over: nearer(now) });

@@ -70,6 +70,9 @@ pub struct StepSpec {
     /// rad that each arm swings a rad that its leg is behind the other.
     #[serde(default)]
     pub arm_swing: f64,
+    /// s that pass before the first foot leaves: weight comes off it meanwhile.
+    #[serde(default)]
+    pub reaction: f64,
     /// Part of a swing in which the foot goes up before it goes anywhere.
     #[serde(default)]
     pub lifting: f64,
@@ -100,6 +103,7 @@ impl StepSpec {
             ("climb", self.climb, 0.01, 10.0),
             ("arm_swing", self.arm_swing, 0.0, 2.0),
             ("lifting", self.lifting, 0.0, 0.5),
+            ("reaction", self.reaction, 0.0, 0.5),
         ] {
             check::within(field, value, low..=high)?;
         }
