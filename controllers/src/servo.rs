@@ -53,8 +53,12 @@ impl Servo {
         for (j, torque) in torques.iter_mut().enumerate() {
             // The matrix is symmetric: its columns, which lie together, are its rows.
             let row = self.kd.column(j);
-            let braking: f64 = row.iter().zip(rates).map(|(kd, rate)| kd * rate).sum();
-            *torque = strength * self.kp[j] * (target[j] - angles[j]) - damping * braking;
+            let braking: f64 = row
+                .iter()
+                .zip(rates)
+                .map(|(kd, rate)| damping * kd * rate)
+                .sum();
+            *torque = strength * self.kp[j] * (target[j] - angles[j]) - braking;
         }
     }
 }

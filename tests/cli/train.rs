@@ -70,7 +70,8 @@ fn a_search_is_told_as_json_and_its_file_is_a_controller() {
     let file = folder.path().join("better.ron");
     let text = std::fs::read_to_string(&file).unwrap();
     let header = text.lines().next().unwrap();
-    assert!(header.ends_with("seed 3, 17 evaluations."), "{header}");
+    // The best was in the first generation.
+    assert!(header.ends_with("seed 3, 9 evaluations."), "{header}");
     // Put in the place of the first, it begins where the search has come to.
     std::fs::copy(&file, folder.path().join("tuck.ron")).unwrap();
     let again =

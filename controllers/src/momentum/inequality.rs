@@ -100,7 +100,7 @@ impl Momentum {
     fn torque_rows(&mut self, scale: [f64; 3], now: &Sensors) {
         let dof = self.dynamics.dof();
         for (j, joint) in self.model.joints().enumerate() {
-            let unit = joint.muscles.strongest();
+            let unit = self.gains.strength * joint.muscles.strongest();
             let i = j + 3;
             let [least, greatest] = joint.muscles.range(now.state.qdot[i]);
             for (sign, most) in [(1.0, -least), (-1.0, greatest)] {

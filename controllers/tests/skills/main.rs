@@ -9,6 +9,7 @@ mod characters;
 mod learned;
 mod pose;
 mod step;
+mod stuntman;
 
 use std::sync::Arc;
 

@@ -15,6 +15,7 @@ use crate::sensing::{FootContact, LinkContact, Sensors};
 use crate::world::collider::outline;
 use crate::world::contact::{each_point, other};
 use crate::world::flesh::Meetings;
+use crate::world::vector::vector;
 
 /// A contact within this distance of a knee's hinge is the knee's, m.
 const KNEE: f64 = 0.1;
@@ -50,11 +51,6 @@ pub struct Body {
     /// See [`Model::knee`], one a link.
     knees: Vec<Option<Point>>,
     meetings: Option<Meetings>,
-}
-
-/// A world vector in the engine's type.
-pub(crate) fn vector(p: [f64; 2]) -> Vector {
-    Vector::new(p[0] as f32, p[1] as f32)
 }
 
 /// Rounded to the engine's precision.

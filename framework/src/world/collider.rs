@@ -5,7 +5,7 @@
 use rapier2d::prelude::*;
 
 use crate::character::{Outline, Shape, Solid};
-use crate::world::body::vector;
+use crate::world::vector::vector;
 
 /// The collider of a link's or a prop's outline.
 pub(crate) fn outline(shape: &Shape) -> ColliderBuilder {

@@ -6,9 +6,9 @@ use rapier2d::prelude::*;
 
 use crate::character::Point;
 use crate::math::hypot;
-use crate::world::body::vector;
 use crate::world::engine::World;
 use crate::world::pull::{Dragged, Pull};
+use crate::world::vector::vector;
 
 /// Stiffness of the spring for each kg that is dragged, N/m.
 const STIFFNESS: f64 = 60.0;

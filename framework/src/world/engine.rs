@@ -9,12 +9,13 @@ use rapier2d::prelude::*;
 use crate::character::{Model, Point, State};
 use crate::events::EventKind;
 use crate::sensing::Sensors;
-use crate::world::body::{Body, vector};
+use crate::world::body::Body;
 use crate::world::fastening::Joined;
 use crate::world::grip::Grips;
 use crate::world::prop::Placed;
 use crate::world::pull::Pull;
 use crate::world::settings::{Settings, integration_parameters};
+use crate::world::vector::vector;
 
 /// A character in the world with what it senses.
 #[derive(Debug, Clone)]

@@ -8,7 +8,7 @@ use rapier2d::prelude::*;
 
 use crate::character::{Flesh, Model, Point, Shape, Solid};
 use crate::math::{hypot, square};
-use crate::world::body::vector;
+use crate::world::vector::vector;
 
 /// Part more force a m/s of approach; less when they part, down to nothing.
 const DAMPING: f64 = 2.0;

@@ -124,7 +124,7 @@ impl Grips {
                 continue;
             };
             let (link, thing) = (body.link(hand.link), &props[prop]);
-            let at = crate::world::body::vector(at);
+            let at = crate::world::vector::vector(at);
             let there = bodies[link].position().transform_point(at);
             let to = bodies[thing.body].position().inverse_transform_point(there);
             let flesh = SpringCoefficients::new(FREQUENCY, 1.0);

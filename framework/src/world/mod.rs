@@ -15,6 +15,7 @@ mod props;
 mod pull;
 mod settings;
 mod stops;
+mod vector;
 
 pub use body::Body;
 pub use engine::{Character, World};

@@ -8,8 +8,8 @@ use rapier2d::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::character::{Point, Shape, turned};
-use crate::world::body::vector;
 use crate::world::collider::outline;
+use crate::world::vector::vector;
 
 /// A thing in the world that is no character.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

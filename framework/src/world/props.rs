@@ -6,11 +6,11 @@ use rapier2d::prelude::*;
 
 use crate::events::EventKind;
 use crate::sensing::SensedProp;
-use crate::world::body::vector;
 use crate::world::engine::World;
 use crate::world::fastening::{Fastening, Joined};
 use crate::world::grip::Touched;
 use crate::world::prop::{Hinge, Placed, Prop, PropMotion};
+use crate::world::vector::vector;
 
 /// Natural frequency of a prop's hinge that can break, Hz: stiff, but slow enough for its load to
 /// be seen.

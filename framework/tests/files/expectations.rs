@@ -112,7 +112,7 @@ fn bad_expectations_are_refused() {
         ),
         (
             "Holds(condition: Within(feature: \"angle.nee_r\"), at: 0)",
-            "expect[0].condition.feature is 'nee_r'; accepted: a joint: ",
+            "expect[0].condition.feature is 'nee_r' (did you mean 'knee_r'?); accepted: a joint: ",
         ),
         (
             "Reaches(condition: Not(Within(feature: \"prop_ahead.crat\")))",

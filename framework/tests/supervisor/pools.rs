@@ -48,7 +48,7 @@ fn a_pool_without_a_valid_fallback_is_refused() {
     assert!(refusal("rest", fine).is_ok());
     assert_eq!(
         refusal("rset", fine).unwrap_err(),
-        "p.ron:3:13: fallback is 'rset'; accepted: a controller of the pool: rest (did you mean 'rest'?)"
+        "p.ron:3:13: fallback is 'rset' (did you mean 'rest'?); accepted: a controller of the pool: rest"
     );
     for contract in [
         "weight: 0, precondition: Always",

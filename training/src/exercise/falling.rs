@@ -8,8 +8,8 @@ use aplomb_framework::math::hypot;
 use aplomb_framework::run::Simulation;
 use aplomb_framework::sensing::Sensors;
 
+use crate::exercise::bearing::Bearing;
 use crate::exercise::impact::Impact;
-use crate::exercise::looks::Looks;
 
 /// s from the push within which the character should lie still.
 const LONGEST: f64 = 2.6;
@@ -65,7 +65,7 @@ pub fn land(start: &Simulation, supervisor: &Supervisor, forward: bool) -> Landi
     let begun = run.time();
     let dt = run.world().settings().dt;
     let mut impact = Impact::new(dt);
-    let mut looks = Looks::new(run.sensors(0));
+    let mut looks = Bearing::new(run.sensors(0));
     let mut landing = Landing::default();
     let mut first: Option<bool> = None;
     let (mut head_before, mut quiet) = (0.0, 0.0);

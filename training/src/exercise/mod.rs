@@ -2,9 +2,9 @@
 //!
 //! [`skill`], its file's `exercise` → [`Task`] → starts in random worlds → rollouts → [`Score`].
 
+mod bearing;
 pub mod falling;
 mod impact;
-mod looks;
 mod measure;
 pub mod rising;
 pub mod skill;

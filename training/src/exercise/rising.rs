@@ -9,8 +9,8 @@ use aplomb_framework::run::Simulation;
 use aplomb_framework::sensing::{Posture, Sensors};
 use serde::{Deserialize, Serialize};
 
+use crate::exercise::bearing::Bearing;
 use crate::exercise::impact::Impact;
-use crate::exercise::looks::Looks;
 
 /// s for which the character must stand to have risen.
 const STEADY: f64 = 0.3;
@@ -104,7 +104,7 @@ pub fn rise(
         slid: 0.0,
         same: 0.0,
     };
-    let mut looks = Looks::new(run.sensors(0));
+    let mut looks = Bearing::new(run.sensors(0));
     let head = run.sensors(0).model.head;
     let (mut head_speed, mut lies) = (0.0, true);
     let mut seen = run.events().len();

@@ -138,7 +138,7 @@ struct Streams {
     patience: usize,
 }
 
-/// Looks through situations for `count` starts of each contract.
+/// Bearing through situations for `count` starts of each contract.
 fn search(
     Streams {
         seed,

@@ -6,7 +6,7 @@ use aplomb_framework::control::Supervisor;
 use aplomb_framework::math::square;
 use aplomb_framework::run::Simulation;
 
-use crate::exercise::looks::Looks;
+use crate::exercise::bearing::Bearing;
 
 /// s after the push within which it is to stand.
 const LONGEST: f64 = 6.0;
@@ -68,7 +68,7 @@ pub fn step(start: &Simulation, supervisor: &Supervisor) -> Stepped {
         motion: 0.0,
         slid: 0.0,
     };
-    let mut looks = Looks::new(run.sensors(0));
+    let mut looks = Bearing::new(run.sensors(0));
     let (mut steps, mut steady) = (0.0, 0.0);
     while run.time() - begun < LONGEST {
         run.step();

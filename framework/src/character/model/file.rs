@@ -8,23 +8,20 @@ use std::sync::Arc;
 use include_dir::{Dir, include_dir};
 
 use crate::character::kinematics::Kinematics;
+use crate::character::model::bounds::{MOST, point};
 use crate::character::model::definition::{Foot, Hand, Link, MOST_LINKS, Model};
 use crate::character::model::joint::joint;
 use crate::character::model::schema::{CharacterFile, LinkEntry};
 use crate::character::model::{digest, tree};
-use crate::character::shape::{Point, Shape};
+use crate::character::shape::Shape;
 use crate::character::state::State;
-use crate::input::{Error, FieldPath, Result, Source, check, shipped};
+use crate::input::{Error, Result, Source, check, shipped};
 
 /// One file each.
 static CHARACTERS: Dir = include_dir!("$CARGO_MANIFEST_DIR/characters");
 
-/// The largest mass, inertia, torque or gain.
-pub(super) const MOST: f64 = 1e6;
 /// The stiffest flesh, N/m.
 const STIFFEST: f64 = 1e5;
-/// The furthest a point may be from its frame's origin, m.
-const FURTHEST: f64 = 100.0;
 
 impl Model {
     /// The built-in characters: name and text, by name.
@@ -191,10 +188,6 @@ fn link(entry: &LinkEntry, names: &[&str]) -> Result<Link> {
 fn shape(shape: Shape) -> Result<()> {
     let length = |field, length| check::above(field, length, 0.0, MOST);
     shape.check(length, |field, p| point(field, p))
-}
-
-pub(super) fn point(field: impl Into<FieldPath>, p: Point) -> Result<()> {
-    check::point(p, FURTHEST).map_err(|e| e.inside(field))
 }
 
 #[cfg(test)]

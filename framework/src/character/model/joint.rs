@@ -2,8 +2,8 @@
 //!
 //! entry → [`Joint`].
 
+use crate::character::model::bounds::{MOST, point};
 use crate::character::model::definition::Joint;
-use crate::character::model::file::{MOST, point};
 use crate::character::model::schema::{JointEntry, MuscleEntry};
 use crate::character::muscle::{Muscle, Muscles};
 use crate::input::{Error, Result, check};

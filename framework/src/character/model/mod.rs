@@ -2,6 +2,7 @@
 //!
 //! RON → `schema` → `tree`, `file` (bounds) → [`Model`], with its `digest`.
 
+mod bounds;
 mod definition;
 mod digest;
 mod file;

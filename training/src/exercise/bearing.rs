@@ -13,7 +13,7 @@ const TWO: [(&str, f64); 2] = [("shoulder", 0.3), ("hip", 0.2)];
 
 /// Gathered over a rollout.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Looks {
+pub(crate) struct Bearing {
     steps: f64,
     /// m by which loaded soles have slid.
     slid: f64,
@@ -23,7 +23,7 @@ pub(crate) struct Looks {
     pairs: Vec<(usize, usize, f64)>,
 }
 
-impl Looks {
+impl Bearing {
     /// Nothing has been seen yet.
     #[must_use]
     pub(crate) fn new(now: &Sensors) -> Self {
