@@ -9,18 +9,22 @@
 //! with three quarters of τ₀ left at ω₇₅ and a half at ω₅₀. Lengthening muscles hold more: the torque
 //! rises evenly to 1.3 τ₀ at 1 rad/s.
 
+use serde::Deserialize;
+
 /// What lengthening muscles hold at most, relative to τ₀.
 const LENGTHENING: f64 = 1.3;
 /// rad/s of lengthening at which they hold that.
 const FULL: f64 = 1.0;
 
 /// The muscles that turn a joint one way.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Muscle {
     /// τ₀: the greatest torque at rest, N·m.
     pub torque: f64,
     /// ω₇₅ and ω₅₀: speeds of shortening at which three quarters and a half of it are left, rad/s;
     /// the same torque at every speed if there are none.
+    #[serde(default)]
     pub speeds: Option<[f64; 2]>,
 }
 
@@ -54,7 +58,8 @@ impl Muscle {
 /// let [least, greatest] = hip.range(4.267); // flexing fast: the flexors halve, the extensors brake
 /// assert!((greatest - 0.5 * 189.0).abs() < 1e-9 && (least + 1.3 * 288.0).abs() < 1e-9);
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Muscles {
     /// Those that make the joint's angle greater.
     pub positive: Muscle,

@@ -65,7 +65,7 @@ pub fn land(start: &Simulation, supervisor: &Supervisor, forward: bool) -> Landi
     let begun = run.time();
     let dt = run.world().settings().dt;
     let mut impact = Impact::new(dt);
-    let mut looks = Bearing::new(run.sensors(0));
+    let mut bearing = Bearing::new(run.sensors(0));
     let mut landing = Landing::default();
     let mut first: Option<bool> = None;
     let (mut head_before, mut quiet) = (0.0, 0.0);
@@ -75,7 +75,7 @@ pub fn land(start: &Simulation, supervisor: &Supervisor, forward: bool) -> Landi
         let now = run.sensors(0);
         let model = &now.model;
         impact.observe(now);
-        looks.observe(now, dt);
+        bearing.observe(now, dt);
         landing.head_force = landing.head_force.max(impact.head);
         landing.trunk_force = landing.trunk_force.max(impact.trunk);
         if now.contacts[model.head].touching && landing.head_speed == 0.0 {
@@ -107,7 +107,11 @@ pub fn land(start: &Simulation, supervisor: &Supervisor, forward: bool) -> Landi
     }
     landing.protected = first.unwrap_or(true);
     landing.settled |= !landing.fell;
-    landing.same = if landing.fell { looks.sameness() } else { 0.0 };
+    landing.same = if landing.fell {
+        bearing.sameness()
+    } else {
+        0.0
+    };
     landing
 }
 

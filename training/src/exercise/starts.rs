@@ -138,7 +138,7 @@ struct Streams {
     patience: usize,
 }
 
-/// Bearing through situations for `count` starts of each contract.
+/// Looks through situations for `count` starts of each contract.
 fn search(
     Streams {
         seed,

@@ -68,7 +68,7 @@ pub fn step(start: &Simulation, supervisor: &Supervisor) -> Stepped {
         motion: 0.0,
         slid: 0.0,
     };
-    let mut looks = Bearing::new(run.sensors(0));
+    let mut bearing = Bearing::new(run.sensors(0));
     let (mut steps, mut steady) = (0.0, 0.0);
     while run.time() - begun < LONGEST {
         run.step();
@@ -76,7 +76,7 @@ pub fn step(start: &Simulation, supervisor: &Supervisor) -> Stepped {
         steps += 1.0;
         all.bent += square(now.trunk_pitch());
         all.lean = all.lean.max(now.trunk_pitch().abs());
-        looks.observe(now, dt);
+        bearing.observe(now, dt);
         if now.is_down() {
             break;
         }
@@ -93,7 +93,7 @@ pub fn step(start: &Simulation, supervisor: &Supervisor) -> Stepped {
     all.time = run.time() - begun;
     all.way = (run.sensors(0).com[0] - x).abs();
     all.bent /= steps;
-    all.motion = looks.motion();
-    all.slid = looks.slid();
+    all.motion = bearing.motion();
+    all.slid = bearing.slid();
     all
 }

@@ -13,6 +13,8 @@ use crate::servo::smoothstep;
 
 /// The furthest that an arm swings either way, rad.
 const ARM: f64 = 0.8;
+/// The furthest that the head turns against the trunk, rad.
+const HEAD: f64 = 0.8;
 
 impl Step {
     /// How a foot is put down in a direction.
@@ -138,7 +140,7 @@ impl Step {
             reference.pose[limb.shoulder] = limb.hangs + swing;
         }
         if let (true, Some(neck)) = (self.spec.gaze, now.model.head.checked_sub(1)) {
-            reference.pose[neck] = (-now.trunk_pitch()).clamp(-ARM, ARM);
+            reference.pose[neck] = (-now.trunk_pitch()).clamp(-HEAD, HEAD);
         }
         reference.swing = swing;
     }

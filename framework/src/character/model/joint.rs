@@ -4,7 +4,7 @@
 
 use crate::character::model::bounds::{MOST, point};
 use crate::character::model::definition::Joint;
-use crate::character::model::schema::{JointEntry, MuscleEntry};
+use crate::character::model::schema::JointEntry;
 use crate::character::muscle::{Muscle, Muscles};
 use crate::input::{Error, Result, check};
 
@@ -40,14 +40,14 @@ fn muscles(entry: &JointEntry) -> Result<Muscles> {
             check::above("torque", torque, 0.0, MOST)?;
             Ok(Muscles::even(torque))
         }
-        (None, Some(entry)) => {
-            let one = |field: &'static str, entry: &MuscleEntry| {
-                muscle(entry).map_err(|e| e.inside(field).inside("muscles"))
-            };
-            Ok(Muscles {
-                positive: one("positive", &entry.positive)?,
-                negative: one("negative", &entry.negative)?,
-            })
+        (None, Some(muscles)) => {
+            for (field, muscle) in [
+                ("positive", &muscles.positive),
+                ("negative", &muscles.negative),
+            ] {
+                check_muscle(muscle).map_err(|e| e.inside(field).inside("muscles"))?;
+            }
+            Ok(*muscles)
         }
         (torque, _) => {
             let problem = if torque.is_some() {
@@ -61,14 +61,11 @@ fn muscles(entry: &JointEntry) -> Result<Muscles> {
     }
 }
 
-fn muscle(entry: &MuscleEntry) -> Result<Muscle> {
-    check::above("torque", entry.torque, 0.0, MOST)?;
-    if let Some([slow, half]) = entry.speeds {
+fn check_muscle(muscle: &Muscle) -> Result<()> {
+    check::above("torque", muscle.torque, 0.0, MOST)?;
+    if let Some([slow, half]) = muscle.speeds {
         check::above(("speeds", 0), slow, 0.0, FASTEST)?;
         check::above(("speeds", 1), half, slow, FASTEST)?;
     }
-    Ok(Muscle {
-        torque: entry.torque,
-        speeds: entry.speeds,
-    })
+    Ok(())
 }

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use crate::character::model::definition::Flesh;
+use crate::character::muscle::Muscles;
 use crate::character::shape::{Point, Shape};
 
 #[derive(Deserialize)]
@@ -58,22 +59,7 @@ pub(super) struct JointEntry {
     #[serde(default)]
     pub(super) torque: Option<f64>,
     #[serde(default)]
-    pub(super) muscles: Option<MusclesEntry>,
+    pub(super) muscles: Option<Muscles>,
     pub(super) kp: f64,
     pub(super) kd: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct MusclesEntry {
-    pub(super) positive: MuscleEntry,
-    pub(super) negative: MuscleEntry,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct MuscleEntry {
-    pub(super) torque: f64,
-    #[serde(default)]
-    pub(super) speeds: Option<[f64; 2]>,
 }
