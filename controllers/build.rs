@@ -5,5 +5,4 @@ fn main() {
     println!("cargo::rerun-if-changed=learned");
     println!("cargo::rerun-if-changed=repertoires");
     println!("cargo::rerun-if-changed=skills");
-    println!("cargo::rerun-if-changed=stuntman");
 }

@@ -31,7 +31,7 @@ fn main() -> Result<()> {
     // The character, its senses and its supervisor.
     let model = Model::load("humanoid")?;
     let start = State::standing(&model);
-    let body = Body::spawn(&model, &start, 0, &mut bodies, &mut colliders, &mut joints);
+    let mut body = Body::spawn(&model, &start, 0, &mut bodies, &mut colliders, &mut joints);
     let mut sensors = Sensors::new(&model, 9.81);
     let mut supervisor = repertoire::load("humanoid", &aplomb::controllers::registry(), &model)?;
     let mut torques = vec![0.0; model.joint_count()];

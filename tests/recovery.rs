@@ -24,7 +24,7 @@ fn every_scenario_of_recovery_ends_as_it_expects() {
 }
 
 #[test]
-fn the_story_goes_from_a_push_over_a_fall_and_a_roll_to_standing_and_stepping() {
+fn the_story_goes_from_two_falls_over_rising_each_time_to_a_step() {
     let scenario = aplomb::scenarios::load("story").unwrap();
     let mut run = Simulation::new(&scenario, &aplomb::controllers::registry()).unwrap();
     run.run(scenario.duration);

@@ -50,7 +50,7 @@ pub fn registry() -> Registry {
 }
 
 /// The folders of this crate that are shipped, by name.
-static FILES: [(&str, Dir); 5] = [
+static FILES: [(&str, Dir); 4] = [
     ("clips", include_dir!("$CARGO_MANIFEST_DIR/clips")),
     ("learned", include_dir!("$CARGO_MANIFEST_DIR/learned")),
     (
@@ -58,5 +58,4 @@ static FILES: [(&str, Dir); 5] = [
         include_dir!("$CARGO_MANIFEST_DIR/repertoires"),
     ),
     ("skills", include_dir!("$CARGO_MANIFEST_DIR/skills")),
-    ("stuntman", include_dir!("$CARGO_MANIFEST_DIR/stuntman")),
 ];

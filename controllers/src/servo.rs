@@ -152,7 +152,7 @@ mod tests {
     /// A rate that is damped alone dies away from step to step without changing its sign.
     #[test]
     fn implicit_damping_never_overshoots() {
-        let model = Model::load("stuntman").unwrap();
+        let model = Model::load("humanoid").unwrap();
         let damping = implicit_damping(&model);
         let mut dynamics = Dynamics::new(&model);
         dynamics.update(&model, &State::standing(&model), 0.0);

@@ -60,6 +60,8 @@ struct ControllerRow {
     hold: f64,
     /// s after which it has failed; none without limit.
     patience: Option<f64>,
+    /// s of stillness after which it has failed; none without limit.
+    stalls: Option<f64>,
 }
 
 impl ControllersArgs {
@@ -126,6 +128,7 @@ fn row(contract: &Contract, kinds: &BTreeMap<String, String>) -> ControllerRow {
         expected: contract.expected.to_string(),
         hold: contract.hold,
         patience: Some(contract.patience).filter(|p| p.is_finite()),
+        stalls: Some(contract.stalls).filter(|s| s.is_finite()),
     }
 }
 
@@ -161,6 +164,9 @@ fn print(out: &mut dyn Write, rows: &[ControllerRow]) -> std::io::Result<()> {
         writeln!(out, "  expects           {}", row.expected)?;
         if let Some(patience) = row.patience {
             writeln!(out, "  gives up after    {patience} s")?;
+        }
+        if let Some(stalls) = row.stalls {
+            writeln!(out, "  and after         {stalls} s without moving")?;
         }
         let commands: Vec<String> = row.commands.iter().map(usage).collect();
         writeln!(out, "  answers to        {}", commands.join("; "))?;

@@ -22,7 +22,8 @@ pub(super) fn tell(out: &mut dyn Write) -> Result<Ending> {
     check_writable(recording)?;
     writeln!(
         out,
-        "The humanoid stands, is pushed hard from the front, falls, rolls over, rises; pushed again, it steps."
+        "The humanoid stands, is pushed hard from the front, falls on its back, gets up; is pushed from behind, falls on its \
+         hands, gets up; pushed lightly, it steps."
     )?;
     out.flush()?;
     let mut simulation = Simulation::new(&scenario, &aplomb::controllers::registry())?;

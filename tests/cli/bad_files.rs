@@ -19,7 +19,7 @@ fn characters() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     write("nan.ron", &humanoid("mass: 8.936", "mass: NaN"));
-    write("inf.ron", &humanoid("torque: 250.0", "torque: inf"));
+    write("inf.ron", &humanoid("torque: 350.0", "torque: inf"));
     let (from, to) = ("parent: \"pelvis\"", "parent: \"head\"");
     write("cycle.ron", &humanoid(from, to));
     let text = humanoid("    feet: [", "    /* feet: [");

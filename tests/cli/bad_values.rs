@@ -161,7 +161,7 @@ fn of_controllers() {
             "capture_front\", min: 0.0",
             "capture_front\", min: 0.0, max: -1.0",
         ),
-        ("fall", "reach_stiffness: 1.0,", "reach_stiffness: 4.0,"),
+        ("fall", "lower: 0.8", "lower: 80"),
         ("rest", "stiffness: 0.05", "stiffness: inf"),
         ("rest", "damping: 0.3", "damping: much"),
     ];

@@ -231,7 +231,7 @@ fn every_shipped_clip_shows_what_it_expects() {
 
 #[test]
 fn who_expected_a_lighter_and_slower_ball_falls_and_rises() {
-    let call = called("run clips/catch_ball --set mass=15 --set speed=8 --duration 9 --json");
+    let call = called("run clips/catch_ball --set mass=15 --set speed=8 --duration 14 --json");
     let output = { call }.output().unwrap();
     // The ball was not held, as the scenario expects.
     assert_eq!(output.status.code(), Some(1));

@@ -137,8 +137,7 @@ fn standing_is_searched_over_pushes_at_its_limit() {
         (&"balance".into(), &2.into())
     );
     let text = std::fs::read_to_string(folder.path().join("balance.ron")).unwrap();
-    let header =
-        "// Optimised by CMA-ES over 2 pushes of 38 to 50 N·s forward and 34 to 42 backward";
+    let header = "// Optimised by CMA-ES over 2 pushes of 8 to 30 N·s forward and 8 to 26 backward";
     assert!(text.starts_with(header), "{text}");
     // By its former name.
     let again = "train poses balance --evaluations 1 --starts 2 --out balance.ron --resume";

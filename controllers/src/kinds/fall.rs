@@ -39,7 +39,7 @@ pub struct Way {
     pub give: NamedAngles,
     /// Pose to lie in.
     pub lie: NamedAngles,
-    /// How far the right limbs are ahead of the left while reaching and giving, by stem, rad.
+    /// How far the right limbs are ahead of the left in all three, by stem, rad.
     #[serde(default, skip_serializing_if = "NamedAngles::is_empty")]
     pub apart: NamedAngles,
     /// s that lowering to it takes.
@@ -128,7 +128,7 @@ impl Way {
             pose: [
                 pose("reach", &self.reach, &self.apart)?,
                 pose("give", &self.give, &self.apart)?,
-                pose("lie", &self.lie, &NamedAngles::new())?,
+                pose("lie", &self.lie, &self.apart)?,
             ],
             stiffness: [
                 self.reach_stiffness,

@@ -5,11 +5,11 @@
     reason = "tests compare with the standard library's functions"
 )]
 
+mod bearing;
 mod characters;
 mod learned;
 mod pose;
 mod step;
-mod stuntman;
 
 use std::sync::Arc;
 

@@ -63,6 +63,9 @@ pub struct Contract {
     /// s after which a controller that has not succeeded has failed.
     #[serde(default = "forever", skip_serializing_if = "is_infinite")]
     pub patience: f64,
+    /// s of [stillness](Sensors::is_still) after which it has failed: nothing more will come of it.
+    #[serde(default = "forever", skip_serializing_if = "is_infinite")]
+    pub stalls: f64,
     /// The commands that it answers to; its own name if none are listed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub commands: Vec<Answer>,
@@ -106,6 +109,7 @@ impl Contract {
         }
         check::within("hold", self.hold, 0.0..=60.0)?;
         check::above("patience", self.patience, 0.0, f64::INFINITY)?;
+        check::above("stalls", self.stalls, 0.0, f64::INFINITY)?;
         for (i, answer) in self.commands.iter().enumerate() {
             for (k, p) in answer.parameters.iter().enumerate() {
                 let of = |e: Error| e.inside(("parameters", k)).inside(("commands", i));
@@ -161,6 +165,12 @@ impl Contract {
     #[must_use]
     pub fn out_of_patience(&self) -> Unmet {
         Unmet::plain(format!("not done after {} s", self.patience))
+    }
+
+    /// The failure of a controller that has kept still for too long.
+    #[must_use]
+    pub fn stalled(&self) -> Unmet {
+        Unmet::plain(format!("has kept still for {} s", self.stalls))
     }
 
     /// Whether it answers to a command.

@@ -111,6 +111,7 @@ pub(crate) fn contract(name: &str, pool: &[Box<dyn Controller>]) -> Contract {
         expected: Condition::Always,
         hold: 0.0,
         patience: f64::INFINITY,
+        stalls: f64::INFINITY,
         commands: pool
             .iter()
             .flat_map(|c| c.contract().commands.clone())

@@ -34,6 +34,8 @@ struct Active {
     since: f64,
     /// Since when its post-condition has held.
     reached: Option<f64>,
+    /// Since when the character has kept still.
+    still: Option<f64>,
 }
 
 /// A pool of controllers under one contract.
@@ -241,9 +243,22 @@ impl Supervisor {
         } else {
             active.reached = None;
         }
+        let contract = controller.contract();
+        if contract.stalls.is_finite() && now.is_still() {
+            active.still.get_or_insert(now.time);
+        } else {
+            active.still = None;
+        }
+        let stalled = active
+            .still
+            .is_some_and(|since| now.time - since >= contract.stalls);
         let elapsed = now.time - active.since;
         let kept = active.reached.map(|since| now.time - since);
-        match controller.progress(now, elapsed, kept) {
+        let progress = match controller.progress(now, elapsed, kept) {
+            Progress::Running if stalled => Progress::Failed(contract.stalled()),
+            progress => progress,
+        };
+        match progress {
             Progress::Running => None,
             Progress::Succeeded if elapsed < DWELL => None,
             Progress::Succeeded => Some(Reason::Succeeded),
@@ -268,6 +283,7 @@ impl Supervisor {
             member,
             since: now.time,
             reached: None,
+            still: None,
         });
         self.pool[member].controller.enter(now);
     }

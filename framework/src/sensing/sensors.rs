@@ -234,6 +234,16 @@ impl Sensors {
         links.any(|(i, c)| c.supported && !self.model.is_foot(i))
     }
 
+    /// Whether something holds it up and it moves so little that an eye takes it for still: its centre of mass by
+    /// less than 0.03 m/s, each joint by less than 0.2 rad/s.
+    #[must_use]
+    pub fn is_still(&self) -> bool {
+        let [x, y] = self.com_velocity;
+        self.contacts.iter().any(|c| c.supported)
+            && x.abs().max(y.abs()) < 0.03
+            && self.state.rates().iter().all(|rate| rate.abs() < 0.2)
+    }
+
     /// Distance between the foremost and the rearmost ankle, m.
     #[must_use]
     pub fn feet_apart(&self) -> f64 {

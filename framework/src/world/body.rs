@@ -36,7 +36,7 @@ const SKIN_FRICTION: f32 = 2.0;
 /// let mut joints = ImpulseJointSet::new();
 /// let model = Model::load("humanoid")?;
 /// let start = State::standing(&model);
-/// let body = Body::spawn(&model, &start, 0, &mut bodies, &mut colliders, &mut joints);
+/// let mut body = Body::spawn(&model, &start, 0, &mut bodies, &mut colliders, &mut joints);
 /// assert_eq!((bodies.len(), joints.len()), (model.links.len(), model.joint_count()));
 /// // Each step: the engine's step, body.sense, a supervisor's act, and
 /// body.actuate(&mut bodies, &vec![0.0; model.joint_count()]);
@@ -267,12 +267,12 @@ impl Body {
     /// Applies joint torques (N·m, model order) for the next step, in place of the last step's,
     /// clamped to the muscles. What is not a number counts as 0. Returns nothing to the root: every
     /// torque acts on a link and, reversed, on its parent. Where trunk and legs overlap they are pressed
-    /// apart. Replaces all forces and torques on the links: add others afterwards.
-    pub fn actuate(&self, bodies: &mut RigidBodySet, torques: &[f64]) {
+    /// apart: call it once a step. Replaces all forces and torques on the links: add others afterwards.
+    pub fn actuate(&mut self, bodies: &mut RigidBodySet, torques: &[f64]) {
         for handle in &self.links {
             bodies[*handle].reset_torques(false);
         }
-        if let Some(meetings) = &self.meetings {
+        if let Some(meetings) = &mut self.meetings {
             for handle in &self.links {
                 bodies[*handle].reset_forces(false);
             }

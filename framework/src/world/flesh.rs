@@ -12,6 +12,10 @@ use crate::world::vector::vector;
 
 /// Part more force a m/s of approach; less when they part, down to nothing.
 const DAMPING: f64 = 2.0;
+/// Greatest stiffness for the lighter half of a pair's mass, 1/s²: stiffer springs would not be stable in steps of 1 ms.
+const STIFFEST: f64 = 1e5;
+/// m a step by which limbs that were placed within each other are pressed apart.
+const PARTING: f64 = 2e-4;
 
 /// A stretch that flesh surrounds: its ends in the link's frame, and the radius, m.
 #[derive(Debug, Clone, Copy)]
@@ -21,10 +25,21 @@ struct Limb {
     radius: f64,
 }
 
+/// Trunk or head, and a part of a leg.
+#[derive(Debug, Clone)]
+struct Meeting {
+    limbs: [Limb; 2],
+    /// Overlap without force, m: where it was placed within itself. It only shrinks, so that such a start
+    /// does no blow.
+    spared: f64,
+    /// Overlap beyond which the force grows no more, m.
+    deepest: f64,
+}
+
 /// The pairs of one character's links that meet.
 #[derive(Debug, Clone)]
 pub(super) struct Meetings {
-    pairs: Vec<[Limb; 2]>,
+    pairs: Vec<Meeting>,
     flesh: Flesh,
 }
 
@@ -45,7 +60,7 @@ fn limb(link: usize, shape: &Shape) -> Option<Limb> {
 }
 
 impl Meetings {
-    /// Of a character; none of one without flesh.
+    /// Of a character that was just placed; none of one without flesh.
     pub(super) fn new(model: &Model) -> Option<Self> {
         let flesh = model.flesh?;
         let of = |link: usize| limb(link, &model.links[link].shape);
@@ -58,7 +73,12 @@ impl Meetings {
                 for upper in [model.trunk, model.head] {
                     let apart = upper != above && upper != leg && parent(upper) != Some(leg);
                     if let (true, Some(a), Some(b)) = (apart, of(upper), of(leg)) {
-                        pairs.push([a, b]);
+                        let [m, n] = [upper, leg].map(|link| model.links[link].mass);
+                        pairs.push(Meeting {
+                            limbs: [a, b],
+                            spared: f64::INFINITY,
+                            deepest: deepest(flesh, STIFFEST * m * n / (m + n)),
+                        });
                     }
                 }
                 if above == 0 {
@@ -71,12 +91,16 @@ impl Meetings {
     }
 
     /// Adds the forces of this step to the links' bodies. Allocates nothing.
-    pub(super) fn press(&self, links: &[RigidBodyHandle], bodies: &mut RigidBodySet) {
-        for [a, b] in &self.pairs {
+    pub(super) fn press(&mut self, links: &[RigidBodyHandle], bodies: &mut RigidBodySet) {
+        for pair in &mut self.pairs {
+            let [a, b] = &pair.limbs;
             let (upper, leg) = (&bodies[links[a.link]], &bodies[links[b.link]]);
             let Some((normal, at, overlap)) = overlap(a, upper, b, leg) else {
+                pair.spared = 0.0;
                 continue;
             };
+            pair.spared = (pair.spared - PARTING).clamp(0.0, overlap);
+            let overlap = (overlap - pair.spared).min(pair.deepest);
             let velocity = |body: &RigidBody| {
                 let arm = at - body.position() * body.local_center_of_mass();
                 body.linvel() + body.angvel() * Vector::new(-arm.y, arm.x)
@@ -93,6 +117,12 @@ impl Meetings {
             }
         }
     }
+}
+
+/// Overlap at which the spring k d (1 + (d/g)⁶) is as stiff as `most`, N/m; its stiffness is k (1 + 7 (d/g)⁶).
+fn deepest(flesh: Flesh, most: f64) -> f64 {
+    let sixth = ((most / flesh.stiffness - 1.0) / 7.0).max(0.0);
+    flesh.gives * libm::cbrt(sixth.sqrt())
 }
 
 /// Direction from the second to the first, where they meet, world, and by how much they overlap, m.
@@ -189,16 +219,17 @@ mod tests {
 
     #[test]
     fn trunk_and_head_meet_thighs_shanks_and_feet() {
-        let model = Model::load("stuntman").unwrap();
+        let model = Model::load("humanoid").unwrap();
         assert_eq!(Meetings::new(&model).unwrap().pairs.len(), 12);
-        let without = Model::load("humanoid").unwrap();
+        let mut without = (*model).clone();
+        without.flesh = None;
         assert!(Meetings::new(&without).is_none());
     }
 
     /// Folded by all its strength, its trunk rests on its thighs; nothing moves the whole.
     #[test]
     fn who_folds_up_is_stopped_by_its_thighs() {
-        let model = Model::load("stuntman").unwrap();
+        let model = Model::load("humanoid").unwrap();
         let mut world = World::new(Settings {
             gravity: 0.0,
             ..Settings::default()
@@ -220,7 +251,8 @@ mod tests {
             world.actuate(it, &torques);
             world.step();
             let body = &world.characters()[it].body;
-            for [a, b] in &Meetings::new(&model).unwrap().pairs {
+            for pair in &Meetings::new(&model).unwrap().pairs {
+                let [a, b] = &pair.limbs;
                 let [upper, leg] = [a, b].map(|l| &world.bodies[body.link(l.link)]);
                 if let Some((_, _, depth)) = overlap(a, upper, b, leg) {
                     deepest = deepest.max(depth);
@@ -231,5 +263,42 @@ mod tests {
         assert!(deepest > 0.01 && deepest < 0.06, "{deepest} m");
         let drift = hypot(now.com_velocity[0], now.com_velocity[1]);
         assert!(drift < 1e-2, "{drift} m/s");
+    }
+
+    /// Placed within itself, it is pressed apart without being thrown.
+    #[test]
+    fn who_begins_within_itself_parts_without_a_blow() {
+        let model = Model::load("humanoid").unwrap();
+        let mut world = World::new(Settings {
+            gravity: 0.0,
+            ..Settings::default()
+        });
+        let mut state = State::standing(&model);
+        state.q[1] += 1.0;
+        for (j, joint) in model.joints().enumerate() {
+            match &joint.name[..2] {
+                "hi" => state.q[3 + j] = joint.range[1],
+                "wa" => state.q[3 + j] = joint.range[0],
+                _ => {}
+            }
+        }
+        let it = world.spawn(&model, &state);
+        let limp = vec![0.0; model.joint_count()];
+        let mut fastest = 0.0f64;
+        for _ in 0..1000 {
+            world.sense(it);
+            world.actuate(it, &limp);
+            world.step();
+            let now = world.sense(it);
+            fastest = now
+                .state
+                .rates()
+                .iter()
+                .fold(fastest, |a, r| a.max(r.abs()));
+        }
+        let now = world.sense(it);
+        let turned = now.state.angles().iter().zip(&state.q[3..]);
+        let most = turned.fold(0.0f64, |a, (now, then)| a.max((now - then).abs()));
+        assert!(most > 0.05 && fastest < 15.0, "{most} rad, {fastest} rad/s");
     }
 }

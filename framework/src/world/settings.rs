@@ -37,7 +37,7 @@ impl Default for Settings {
             friction: 1.0,
             contact_frequency: 240.0,
             contact_damping: 10.0,
-            iterations: 4,
+            iterations: 2,
             torque: 1.0,
             mass: 1.0,
         }

@@ -46,6 +46,7 @@ impl Puppet {
             expected: Condition::Always,
             hold: 0.0,
             patience: f64::INFINITY,
+            stalls: f64::INFINITY,
             commands: Vec::new(),
         };
         contract.resolve(&Model::load("humanoid").unwrap()).unwrap();

@@ -7,7 +7,6 @@ fn characters_have_their_mass_and_degrees_of_freedom() {
     let told = [
         ("humanoid", 80.0, 15),
         ("lion", 180.0, 25),
-        ("stuntman", 80.0, 15),
         ("sumo", 180.0, 15),
     ];
     assert_eq!(told.len(), Model::built_in().len());

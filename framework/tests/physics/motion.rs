@@ -22,8 +22,8 @@ fn a_falling_character_falls_at_g() {
     let t = now.time;
     assert!((now.com_velocity[1] + G * t).abs() < 1e-4 * G * t);
     assert!(now.com_velocity[0].abs() < 1e-4);
-    // The engine integrates in four substeps a step, each as if its last velocity had held.
-    let fallen = 0.5 * G * t * (t + 0.25e-3);
+    // The engine integrates in two substeps a step, each as if its last velocity had held.
+    let fallen = 0.5 * G * t * (t + 0.5e-3);
     assert!((start - now.com[1] - fallen).abs() < 1e-4 * fallen);
     assert_eq!(now.posture, Posture::Airborne);
 }
@@ -72,7 +72,7 @@ fn torques_in_the_air_change_no_momentum() {
         let (mut broad_phase, mut narrow_phase) = (BroadPhaseBvh::new(), NarrowPhase::new());
         let mut ccd = CCDSolver::new();
         let start = lifted(&model, 3.0);
-        let body = Body::spawn(&model, &start, 0, &mut bodies, &mut colliders, &mut joints);
+        let mut body = Body::spawn(&model, &start, 0, &mut bodies, &mut colliders, &mut joints);
         let mut now = Sensors::new(&model, gravity);
         let mut torques = vec![0.0; model.joint_count()];
         let (mut fastest, mut twist) = (0.0_f64, 0.0);
@@ -137,7 +137,8 @@ fn a_push_gives_its_impulse() {
         let [x, y, _] = momentum(&mut world, 0);
         let size = f64::hypot(impulse[0], impulse[1]);
         let error = f64::hypot(x - impulse[0], y - impulse[1]) / size;
-        assert!(error < 1e-3, "{impulse:?} over {over} s gave ({x}, {y})");
+        // What is sensed assumes that the hinges hold exactly; they give a little.
+        assert!(error < 2e-3, "{impulse:?} over {over} s gave ({x}, {y})");
     };
     for over in [1e-4, 1e-3, 0.0301, 0.1] {
         gives(&single, 0, [3.0, -2.0], over);

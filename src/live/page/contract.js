@@ -165,7 +165,8 @@ export function makeContract(state, command) {
       return make("p", { class: "sentence" }, "Never gives up for want of time.");
     const sofar = make("span", { class: "number" });
     patience = { sofar, limit: controller.patience };
-    return make("p", { class: "sentence" }, `Gives up after ${plain(controller.patience)} s`, sofar);
+    const still = Number.isFinite(controller.stalls) ? ` (${plain(controller.stalls)} s if still)` : "";
+    return make("p", { class: "sentence" }, `Gives up after ${plain(controller.patience)} s${still}`, sofar);
   }
 
   function update() {

@@ -60,9 +60,9 @@ fn every_contract_of_the_pool_opens_without_a_complaint() {
         let patience =
             "document.querySelector('#contract > .sentence:last-of-type')?.textContent ?? ''";
         page.until(name, &format!("!/ s$/.test({patience})"));
-        if name == "rise_prone" {
+        if name == "rise_kneeling" {
             let clause = page.text("#contract [data-part=pre][data-holds=false]");
-            assert_eq!(clause, "✗posture is proneis standing");
+            assert_eq!(clause, "✗posture is kneelingis standing");
         }
     }
     let row = "document.querySelector('#mind [data-controller=balance]')";

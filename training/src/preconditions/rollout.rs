@@ -178,9 +178,11 @@ mod tests {
     fn what_hurts_is_no_success() {
         let mut trial = trial("fall");
         trial.disturbed.disturbance.force.most = 800.0;
-        let unhurt = (0..8).find(|i| sample(&trial, *i).success).unwrap();
+        let successes = |trial: &Trial| (0..8).filter(|i| sample(trial, *i).success).count();
+        let unhurt = successes(&trial);
         let limit = trial.disturbed.disturbance.unharmed.as_mut().unwrap();
         (limit.head, limit.trunk) = (1.0, 1.0);
-        assert!(!sample(&trial, unhurt).success);
+        // Who came down at all was touched.
+        assert!(successes(&trial) < unhurt);
     }
 }

@@ -40,6 +40,7 @@ fn everywhere(name: &str) -> Contract {
         expected: Condition::Always,
         hold: 0.0,
         patience: f64::INFINITY,
+        stalls: f64::INFINITY,
         commands: Vec::new(),
         confident: false,
     }

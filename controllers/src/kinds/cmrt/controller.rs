@@ -31,14 +31,14 @@ use crate::target::{NamedAngles, overlay};
 /// At most this many motions in a row.
 pub(super) const MOST_MOTIONS: usize = 16;
 
-/// Balance as it is shipped, whose gains serve every clip and character.
-const BALANCE: &str = include_str!("../../../skills/balance.ron");
+/// Balance for a task, whose gains serve every clip and character.
+const BALANCE: &str = include_str!("../../../skills/balance_task.ron");
 
 /// Parameters of [`CmrtController`] in a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CmrtSpec {
-    /// Gains and the pose that is begun with; those of the shipped `balance` if left out.
+    /// Gains and the pose that is begun with; those of the shipped `balance_task` if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub balance: Option<BalanceSpec>,
     /// Angles to begin with where they are not those of the balance's pose, rad.
@@ -139,7 +139,7 @@ impl CmrtSpec {
 }
 
 fn shipped_balance() -> Result<BalanceSpec> {
-    let source = Source::new("built-in skills/balance.ron", BALANCE);
+    let source = Source::new("built-in skills/balance_task.ron", BALANCE);
     ControllerFile::parse(source)?.parameters()
 }
 

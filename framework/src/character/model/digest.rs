@@ -105,30 +105,15 @@ mod tests {
         assert_eq!(plain, digest(&format!("// Another comment.\n{HUMANOID}")));
         for (from, to) in [
             ("mass: 8.936", "mass: 8.937"),
-            ("torque: 250.0", "torque: 251.0"),
+            ("torque: 350.0", "torque: 351.0"),
+            ("speeds: (1.578, 3.19)", "speeds: (1.6, 3.19)"),
+            ("stiffness: 3000.0", "stiffness: 3001.0"),
             ("name: \"waist\"", "name: \"loin\""),
             ("trunk: \"torso\"", "trunk: \"pelvis\""),
             ("radius: 0.045", "radius: 0.046"),
         ] {
             assert!(HUMANOID.contains(from), "{from}");
             assert_ne!(plain, digest(&HUMANOID.replacen(from, to, 1)), "{to}");
-        }
-    }
-
-    #[test]
-    fn curves_and_flesh_belong_to_the_character() {
-        let stuntman = include_str!("../../../characters/stuntman.ron");
-        for (from, to) in [
-            ("torque: 350.0", "torque: 351.0"),
-            ("speeds: (1.578, 3.19)", "speeds: (1.6, 3.19)"),
-            ("stiffness: 3000.0", "stiffness: 3001.0"),
-        ] {
-            assert!(stuntman.contains(from), "{from}");
-            assert_ne!(
-                digest(stuntman),
-                digest(&stuntman.replacen(from, to, 1)),
-                "{to}"
-            );
         }
     }
 

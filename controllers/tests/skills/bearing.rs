@@ -1,4 +1,4 @@
-//! The stuntman: human muscles, limbs that meet, and how he looks while he stands and steps.
+//! The humanoid: human muscles, limbs that meet, and how he looks while he stands and steps.
 
 use aplomb_controllers::registry;
 use aplomb_framework::run::Simulation;
@@ -6,7 +6,7 @@ use aplomb_framework::scenario::{Scenario, ScheduledInput};
 
 /// A run after a push of the trunk at 1 s, N·s, with what `see` is shown of every step.
 fn pushed(impulse: f64, seconds: f64, mut see: impl FnMut(&Simulation)) -> Simulation {
-    let mut scenario = Scenario::standing("stuntman", seconds);
+    let mut scenario = Scenario::standing("humanoid", seconds);
     let push = ScheduledInput::push(1.0, "torso", impulse);
     scenario.events.push(push);
     let mut run = Simulation::new(&scenario, &registry()).unwrap();
