@@ -15,6 +15,7 @@ use crate::sensing::{FootContact, LinkContact, Sensors};
 use crate::world::collider::outline;
 use crate::world::contact::{each_point, other};
 use crate::world::flesh::Meetings;
+use crate::world::stops::{beyond, stops};
 use crate::world::vector::vector;
 
 /// A contact within this distance of a knee's hinge is the knee's, m.
@@ -51,6 +52,8 @@ pub struct Body {
     /// See [`Model::knee`], one a link.
     knees: Vec<Option<Point>>,
     meetings: Option<Meetings>,
+    /// Where each link's muscles end to pull.
+    stops: Vec<[Point; 2]>,
 }
 
 /// Rounded to the engine's precision.
@@ -82,6 +85,7 @@ impl Body {
             joints: Vec::with_capacity(model.joint_count()),
             knees: (0..model.links.len()).map(|l| model.knee(l)).collect(),
             meetings: Meetings::new(model),
+            stops: model.links.iter().map(stops).collect(),
         };
         for (link, motion) in model.links.iter().zip(&kinematics.links) {
             let rigid = RigidBodyBuilder::dynamic()
@@ -265,7 +269,7 @@ impl Body {
     }
 
     /// Applies joint torques (N·m, model order) for the next step, in place of the last step's,
-    /// clamped to the muscles. What is not a number counts as 0. Returns nothing to the root: every
+    /// clamped to the muscles, which pull no joint further beyond its range than it gives. What is not a number counts as 0. Returns nothing to the root: every
     /// torque acts on a link and, reversed, on its parent. Where trunk and legs overlap they are pressed
     /// apart: call it once a step. Replaces all forces and torques on the links: add others afterwards.
     pub fn actuate(&mut self, bodies: &mut RigidBodySet, torques: &[f64]) {
@@ -283,7 +287,14 @@ impl Body {
             let torque = if torque.is_nan() { 0.0 } else { *torque };
             let (child, parent) = (&bodies[self.links[i]], &bodies[self.links[joint.parent]]);
             let rate = f64::from(child.angvel()) - f64::from(parent.angvel());
-            let [least, greatest] = joint.muscles.range(rate);
+            let [mut least, mut greatest] = joint.muscles.range(rate);
+            let [below, above] = beyond(child.rotation(), parent.rotation(), &self.stops[i]);
+            if below {
+                least = 0.0;
+            }
+            if above {
+                greatest = 0.0;
+            }
             let torque = torque.clamp(least, greatest) as f32;
             bodies[self.links[i]].add_torque(torque, false);
             bodies[self.links[joint.parent]].add_torque(-torque, false);
