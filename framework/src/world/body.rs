@@ -14,8 +14,8 @@ use crate::math::{hypot, sin_cos};
 use crate::sensing::{FootContact, LinkContact, Sensors};
 use crate::world::collider::outline;
 use crate::world::contact::{each_point, other};
+use crate::world::ends::{beyond, stops};
 use crate::world::flesh::Meetings;
-use crate::world::stops::{beyond, stops};
 use crate::world::vector::vector;
 
 /// A contact within this distance of a knee's hinge is the knee's, m.

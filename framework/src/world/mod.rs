@@ -6,6 +6,7 @@ mod body;
 mod collider;
 mod contact;
 mod drag;
+mod ends;
 mod engine;
 mod fastening;
 mod flesh;

@@ -76,7 +76,7 @@ fn a_joint_stays_in_its_range_under_full_torque() {
 }
 
 /// With every joint at full torque limbs whip: a shoulder that meets its stop at 30 rad/s throws the
-/// forearm against the elbow's, which gives more in that moment, by up to 0.13 rad.
+/// forearm against the elbow's, which gives more in that moment.
 #[test]
 fn joints_return_to_their_range_when_all_are_at_full_torque() {
     let model = humanoid();
@@ -85,7 +85,7 @@ fn joints_return_to_their_range_when_all_are_at_full_torque() {
         world.spawn(&model, &lifted(&model, 3.0));
         run(&mut world, 1500, |now, torques| {
             torques.fill(sign * f64::INFINITY);
-            let most = if now.time < 1.0 { 0.15 } else { 0.01 };
+            let most = if now.time < 1.0 { 0.12 } else { 0.02 };
             for j in 0..torques.len() {
                 let beyond = beyond(now, j);
                 assert!(beyond < most, "{j} is {beyond} rad beyond at {}", now.time);
