@@ -85,7 +85,7 @@ fn joints_return_to_their_range_when_all_are_at_full_torque() {
         world.spawn(&model, &lifted(&model, 3.0));
         run(&mut world, 1500, |now, torques| {
             torques.fill(sign * f64::INFINITY);
-            let most = if now.time < 1.0 { 0.12 } else { 0.02 };
+            let most = if now.time < 1.0 { 0.15 } else { 0.02 };
             for j in 0..torques.len() {
                 let beyond = beyond(now, j);
                 assert!(beyond < most, "{j} is {beyond} rad beyond at {}", now.time);
