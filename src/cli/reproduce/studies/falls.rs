@@ -54,10 +54,7 @@ fn run(work: &mut Work<'_>) -> Result<Page> {
         ("backward", &skilled.falls.backward),
     ];
     let told = ways.map(|(way, w)| format!("{} of {} {way}", w.head_hits, w.count));
-    page.highlight(
-        "FallFigures of these pushes that hit the head",
-        told.join(", "),
-    );
+    page.highlight("Falls of these pushes that hit the head", told.join(", "));
     Ok(page)
 }
 
