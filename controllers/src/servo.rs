@@ -4,8 +4,8 @@
 //!
 //! Damping of a character with muscle curves is implicit: as if it acted on the rates at the end of the step,
 //! which it changes itself, so that a light link does not overshoot and chatter however strongly it is damped
-//! (stable PD; Tan, Liu and Turk 2011). With M as of standing upright, that is a constant matrix: τ = −(K_d⁻¹ + Δt W)⁻¹ θ̇, where W is the
-//! joints' block of M⁻¹. Without curves each joint has its own damping, less where the joints of a light link damp
+//! (stable PD; Tan, Liu and Turk 2011). With M as of standing upright, that is a constant matrix:
+//! τ = −(K_d⁻¹ + Δt W)⁻¹ θ̇, where W is the joints' block of M⁻¹. Without curves each joint has its own damping, less where the joints of a light link damp
 //! it so much that it would overshoot within a step.
 
 use aplomb_framework::character::{Dynamics, Model, State};

@@ -35,8 +35,9 @@ use output::{Output, message};
 
 /// Composable controllers for physically simulated planar characters.
 ///
-/// Without a subcommand it tells a story: the humanoid stands, is pushed hard from the front, falls,
-/// rolls over, rises and, pushed again, steps. The timeline is printed; out/story.svg and out/story.trajectory are written.
+/// Without a subcommand it tells a story: the humanoid stands, is pushed hard from the front, falls
+/// and gets up; the same from behind; and, pushed lightly, steps. The timeline is printed; out/story.svg and
+/// out/story.trajectory are written.
 #[derive(Debug, Parser)]
 #[command(name = "aplomb", version, after_help = UNITS)]
 struct Cli {

@@ -38,6 +38,16 @@ struct Active {
     still: Option<f64>,
 }
 
+/// For how many seconds something has held without a break; `since` is when it began to.
+fn lasting(since: &mut Option<f64>, holds: bool, time: f64) -> Option<f64> {
+    if holds {
+        Some(time - *since.get_or_insert(time))
+    } else {
+        *since = None;
+        None
+    }
+}
+
 /// A pool of controllers under one contract.
 ///
 /// ```
@@ -238,24 +248,19 @@ impl Supervisor {
             return Some(Reason::Start);
         };
         let controller = &self.pool[active.member].controller;
-        if controller.contract().postcondition.holds(now) {
-            active.reached.get_or_insert(now.time);
-        } else {
-            active.reached = None;
-        }
         let contract = controller.contract();
-        if contract.stalls.is_finite() && now.is_still() {
-            active.still.get_or_insert(now.time);
-        } else {
-            active.still = None;
-        }
-        let stalled = active
-            .still
-            .is_some_and(|since| now.time - since >= contract.stalls);
         let elapsed = now.time - active.since;
-        let kept = active.reached.map(|since| now.time - since);
+        let kept = lasting(
+            &mut active.reached,
+            contract.postcondition.holds(now),
+            now.time,
+        );
+        let still = contract.stalls.is_finite() && now.is_still();
+        let still = lasting(&mut active.still, still, now.time);
         let progress = match controller.progress(now, elapsed, kept) {
-            Progress::Running if stalled => Progress::Failed(contract.stalled()),
+            Progress::Running if still.is_some_and(|s| s >= contract.stalls) => {
+                Progress::Failed(contract.stalled())
+            }
             progress => progress,
         };
         match progress {

@@ -14,7 +14,7 @@ use crate::math::{hypot, sin_cos};
 use crate::sensing::{FootContact, LinkContact, Sensors};
 use crate::world::collider::outline;
 use crate::world::contact::{each_point, other};
-use crate::world::ends::{beyond, stops};
+use crate::world::ends::{beyond, ends};
 use crate::world::flesh::Meetings;
 use crate::world::vector::vector;
 
@@ -52,8 +52,8 @@ pub struct Body {
     /// See [`Model::knee`], one a link.
     knees: Vec<Option<Point>>,
     meetings: Option<Meetings>,
-    /// Where each link's muscles end to pull.
-    stops: Vec<[Point; 2]>,
+    /// Where each link's muscles pull no further.
+    ends: Vec<[Point; 2]>,
 }
 
 /// Rounded to the engine's precision.
@@ -85,7 +85,7 @@ impl Body {
             joints: Vec::with_capacity(model.joint_count()),
             knees: (0..model.links.len()).map(|l| model.knee(l)).collect(),
             meetings: Meetings::new(model),
-            stops: model.links.iter().map(stops).collect(),
+            ends: model.links.iter().map(ends).collect(),
         };
         for (link, motion) in model.links.iter().zip(&kinematics.links) {
             let rigid = RigidBodyBuilder::dynamic()
@@ -269,9 +269,9 @@ impl Body {
     }
 
     /// Applies joint torques (N·m, model order) for the next step, in place of the last step's,
-    /// clamped to the muscles, which pull no joint further beyond its range than it gives. What is not a number counts as 0. Returns nothing to the root: every
-    /// torque acts on a link and, reversed, on its parent. Where trunk and legs overlap they are pressed
-    /// apart: call it once a step. Replaces all forces and torques on the links: add others afterwards.
+    /// clamped to the muscles, which pull no joint further beyond its range than it gives. What is not a
+    /// number counts as 0. Returns nothing to the root: every torque acts on a link and, reversed, on its
+    /// parent. Where trunk and legs overlap they are pressed apart: call it once a step. Replaces all forces and torques on the links: add others afterwards.
     pub fn actuate(&mut self, bodies: &mut RigidBodySet, torques: &[f64]) {
         for handle in &self.links {
             bodies[*handle].reset_torques(false);
@@ -288,7 +288,7 @@ impl Body {
             let (child, parent) = (&bodies[self.links[i]], &bodies[self.links[joint.parent]]);
             let rate = f64::from(child.angvel()) - f64::from(parent.angvel());
             let [mut least, mut greatest] = joint.muscles.range(rate);
-            let [below, above] = beyond(child.rotation(), parent.rotation(), &self.stops[i]);
+            let [below, above] = beyond(child.rotation(), parent.rotation(), &self.ends[i]);
             if below {
                 least = 0.0;
             }

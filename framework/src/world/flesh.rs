@@ -12,7 +12,8 @@ use crate::world::vector::vector;
 
 /// Part more force a m/s of approach; less when they part, down to nothing.
 const DAMPING: f64 = 2.0;
-/// Greatest stiffness for the lighter half of a pair's mass, 1/s²: stiffer springs would not be stable in steps of 1 ms.
+/// Greatest stiffness relative to a pair's reduced mass, 1/s²: stiffer springs would not be stable in steps of
+/// 1 ms.
 const STIFFEST: f64 = 1e5;
 /// m a step by which limbs that were placed within each other are pressed apart.
 const PARTING: f64 = 2e-4;
@@ -200,8 +201,26 @@ fn nearest(a: [Point; 2], b: [Point; 2]) -> (Point, Point) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::character::State;
+    use std::sync::Arc;
+
+    use crate::character::{Joint, State};
     use crate::world::{Settings, World};
+
+    /// The model in a pose, `angle` of each joint, in a world without weight or ground near.
+    fn afloat(angle: impl Fn(&Joint) -> f64) -> (Arc<Model>, World, State) {
+        let model = Model::load("humanoid").unwrap();
+        let mut world = World::new(Settings {
+            gravity: 0.0,
+            ..Settings::default()
+        });
+        let mut state = State::standing(&model);
+        state.q[1] += 1.0;
+        for (q, joint) in state.q[3..].iter_mut().zip(model.joints()) {
+            *q = angle(joint);
+        }
+        world.spawn(&model, &state);
+        (model, world, state)
+    }
 
     #[test]
     fn the_nearest_points_of_two_stretches() {
@@ -229,14 +248,7 @@ mod tests {
     /// Folded by all its strength, its trunk rests on its thighs; nothing moves the whole.
     #[test]
     fn who_folds_up_is_stopped_by_its_thighs() {
-        let model = Model::load("humanoid").unwrap();
-        let mut world = World::new(Settings {
-            gravity: 0.0,
-            ..Settings::default()
-        });
-        let mut state = State::standing(&model);
-        state.q[1] += 1.0;
-        let it = world.spawn(&model, &state);
+        let (model, mut world, _) = afloat(|_| 0.0);
         let torques: Vec<f64> = model
             .joints()
             .map(|j| match &j.name[..2] {
@@ -247,10 +259,10 @@ mod tests {
             .collect();
         let mut deepest = 0.0f64;
         for _ in 0..1500 {
-            world.sense(it);
-            world.actuate(it, &torques);
+            world.sense(0);
+            world.actuate(0, &torques);
             world.step();
-            let body = &world.characters()[it].body;
+            let body = &world.characters()[0].body;
             for pair in &Meetings::new(&model).unwrap().pairs {
                 let [a, b] = &pair.limbs;
                 let [upper, leg] = [a, b].map(|l| &world.bodies[body.link(l.link)]);
@@ -259,7 +271,7 @@ mod tests {
                 }
             }
         }
-        let now = world.sense(it);
+        let now = world.sense(0);
         assert!(deepest > 0.01 && deepest < 0.06, "{deepest} m");
         let drift = hypot(now.com_velocity[0], now.com_velocity[1]);
         assert!(drift < 1e-2, "{drift} m/s");
@@ -268,35 +280,25 @@ mod tests {
     /// Placed within itself, it is pressed apart without being thrown.
     #[test]
     fn who_begins_within_itself_parts_without_a_blow() {
-        let model = Model::load("humanoid").unwrap();
-        let mut world = World::new(Settings {
-            gravity: 0.0,
-            ..Settings::default()
+        let (model, mut world, state) = afloat(|joint| match &joint.name[..2] {
+            "hi" => joint.range[1],
+            "wa" => joint.range[0],
+            _ => 0.0,
         });
-        let mut state = State::standing(&model);
-        state.q[1] += 1.0;
-        for (j, joint) in model.joints().enumerate() {
-            match &joint.name[..2] {
-                "hi" => state.q[3 + j] = joint.range[1],
-                "wa" => state.q[3 + j] = joint.range[0],
-                _ => {}
-            }
-        }
-        let it = world.spawn(&model, &state);
         let limp = vec![0.0; model.joint_count()];
         let mut fastest = 0.0f64;
         for _ in 0..1000 {
-            world.sense(it);
-            world.actuate(it, &limp);
+            world.sense(0);
+            world.actuate(0, &limp);
             world.step();
-            let now = world.sense(it);
+            let now = world.sense(0);
             fastest = now
                 .state
                 .rates()
                 .iter()
                 .fold(fastest, |a, r| a.max(r.abs()));
         }
-        let now = world.sense(it);
+        let now = world.sense(0);
         let turned = now.state.angles().iter().zip(&state.q[3..]);
         let most = turned.fold(0.0f64, |a, (now, then)| a.max((now - then).abs()));
         assert!(most > 0.05 && fastest < 15.0, "{most} rad, {fastest} rad/s");
